@@ -1,0 +1,68 @@
+//! Compiles a shader crate, an ordinary `#![no_std]` library written with `optix-device-rs`, to one PTX file.
+//!
+//! Stock `rustc` does it: no CUDA toolkit, no OptiX SDK and no custom code generator. A program needs one line in its
+//! `build.rs`:
+//!
+//! ```no_run
+//! optix_toolchain::shaders("shaders"); // the shader crate's folder, relative to the package
+//! ```
+//!
+//! The PTX is then `OUT_DIR/<crate_name>.ptx`, and the environment variable `OPTIX_PTX_<CRATE_NAME>` that the program
+//! is compiled with holds its absolute path: `include_str!(env!("OPTIX_PTX_MY_SHADERS"))`. [`Shaders`] is the same with
+//! options.
+//!
+//! # Where there is no device compiler
+//!
+//! The device compiler is any `rustc` with the sources of its standard library ([`DeviceCompiler::find`]);
+//! `cargo optix setup` installs one. Where none is found, the build goes on with one warning and an empty PTX file: the
+//! program runs on the CPU. A compile error in the shader crate does fail the build.
+//!
+//! # How
+//!
+//! | step | module |
+//! | --- | --- |
+//! | find a `rustc` that has library sources and the PTX back end | `compiler` |
+//! | compile `core` for `nvptx64-nvidia-cuda`, once per compiler and architecture | `sysroot` |
+//! | write a wrapper package around the shader crate, so that its manifest and lock stay untouched | `wrapper` |
+//! | replace software `sqrt`, `floor`, `fma` .. by instructions | `libm` |
+//! | run cargo on the wrapper with the outer cargo's environment removed | `cargo` |
+//! | check that the PTX has entries and no unresolved symbol | [`mod@ptx`] |
+//!
+//! Everything is under `<target directory>/optix`, which `cargo clean` removes.
+
+mod build_script;
+mod cargo;
+mod compiler;
+mod dep_info;
+mod device_build;
+mod error;
+pub mod json;
+mod libm;
+mod lock;
+mod metadata;
+mod options;
+pub mod ptx;
+mod sysroot;
+mod util;
+mod wrapper;
+
+pub use compiler::{Candidate, DeviceCompiler, MINIMUM, Rejected, Why, host_rustc, sources_of};
+pub use device_build::Built;
+pub use error::Error;
+pub use metadata::{Package, Workspace};
+pub use options::{DEFAULT_ARCH, Shaders};
+
+/// Compiles the shader crate in `path` with the default [options](Shaders). To be called from a `build.rs`.
+///
+/// `path` is relative to the folder of the package that is being built. On failure this prints the reason the way
+/// cargo expects it and ends the process with exit code 1, because a build script can do nothing else.
+///
+/// ```no_run
+/// // build.rs
+/// fn main() {
+///     optix_toolchain::shaders("shaders");
+/// }
+/// ```
+pub fn shaders(path: impl AsRef<std::path::Path>) {
+    Shaders::new(path).compile();
+}

@@ -1,0 +1,73 @@
+//! What a hit carries from intersection to closest-hit and any-hit programs (guide 13.4).
+
+use crate::words::{WordBuffer, Words};
+
+/// The attributes of a kind of hit: what `report` takes and what closest-hit and any-hit programs of that geometry read.
+///
+/// [`Triangles`] is the built-in kind; a struct with `#[derive(Attributes)]` is one for custom primitives.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a kind of hit",
+    label = "expected `Triangles` or a struct with `#[derive(Attributes)]`"
+)]
+pub trait Attributes: Copy + 'static {
+    /// The name, for messages.
+    const NAME: &'static str;
+    /// Attribute words, 0 to 8.
+    const WORDS: usize;
+    /// Reads the attributes from their words.
+    fn load(words: &WordBuffer) -> Self;
+    /// Writes the attributes to their words.
+    fn store(self, words: &mut WordBuffer);
+}
+
+/// A hit on a built-in triangle; its attributes are the barycentrics.
+///
+/// The hit point is `(1 - u - v) * p0 + u * p1 + v * p2` (guide 13.4).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangles {
+    /// Weight of the second vertex, 0 to 1.
+    pub u: f32,
+    /// Weight of the third vertex, 0 to 1.
+    pub v: f32,
+}
+
+impl Attributes for Triangles {
+    const NAME: &'static str = "Triangles";
+    const WORDS: usize = 2;
+    #[inline(always)]
+    fn load(words: &WordBuffer) -> Self {
+        Self { u: f32::load(words, 0), v: f32::load(words, 1) }
+    }
+    #[inline(always)]
+    fn store(self, words: &mut WordBuffer) {
+        self.u.store(words, 0);
+        self.v.store(words, 1);
+    }
+}
+
+/// A geometry kind as `pipeline!` names it after `on`.
+pub trait Geometry: 'static {
+    /// Which of the kinds it is.
+    const KIND: GeometryKind;
+}
+
+/// Primitives whose intersection program the user writes.
+#[derive(Clone, Copy, Debug)]
+pub enum Custom {}
+
+impl Geometry for Triangles {
+    const KIND: GeometryKind = GeometryKind::Triangles;
+}
+
+impl Geometry for Custom {
+    const KIND: GeometryKind = GeometryKind::Custom;
+}
+
+/// The kinds of geometry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum GeometryKind {
+    /// Built-in triangles.
+    Triangles,
+    /// Boxes with a user's intersection program.
+    Custom,
+}

@@ -1,0 +1,125 @@
+//! Plain data with one layout on host and device.
+
+use crate::ray::Traversable;
+use crate::view::{Slice, SliceMut, SliceMut2d};
+use glam::{
+    Affine3A, IVec2, IVec3, IVec4, Mat3, Mat4, Quat, UVec2, UVec3, UVec4, Vec2, Vec3, Vec3A, Vec4,
+};
+
+/// Plain data with one layout on host and device, which may cross by a copy of its bytes.
+///
+/// Implemented for numbers, glam types, arrays, [`Slice`] and its kin, and by `#[derive(DeviceData)]` for `#[repr(C)]`
+/// structs of these.
+///
+/// # Safety
+/// The layout is the same for every compiler and target (`#[repr(C)]` or a primitive), and the bytes that the host
+/// writes through [`DeviceData::write_to`] are a valid value on the device.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't cross from host to device",
+    label = "has no layout that host and device share",
+    note = "use numbers, glam vectors, arrays, `Slice` and its kin, or `#[derive(DeviceData)]` with `#[repr(C)]` on your struct"
+)]
+pub unsafe trait DeviceData: Copy + 'static {
+    /// Writes the value's bytes to `bytes`, which is `size_of::<Self>()` long and zero: padding stays zero.
+    fn write_to(&self, bytes: &mut [u8]);
+}
+
+macro_rules! primitive {
+    ($($ty:ty),*) => {$(
+        // SAFETY: a primitive without padding, the same on both machines (both little endian).
+        unsafe impl DeviceData for $ty {
+            #[inline]
+            fn write_to(&self, bytes: &mut [u8]) {
+                bytes.copy_from_slice(&self.to_le_bytes());
+            }
+        }
+    )*};
+}
+primitive!(u8, i8, u16, i16, u32, i32, u64, i64, f32, f64);
+
+// SAFETY: 0 and 1 are the valid values on both machines.
+unsafe impl DeviceData for bool {
+    #[inline]
+    fn write_to(&self, bytes: &mut [u8]) {
+        bytes[0] = *self as u8;
+    }
+}
+
+// SAFETY: no bytes.
+unsafe impl DeviceData for () {
+    fn write_to(&self, _: &mut [u8]) {}
+}
+
+// SAFETY: an array has its elements' layout, one after the other.
+unsafe impl<T: DeviceData, const N: usize> DeviceData for [T; N] {
+    #[inline]
+    fn write_to(&self, bytes: &mut [u8]) {
+        for (value, bytes) in self.iter().zip(bytes.chunks_exact_mut(size_of::<T>().max(1))) {
+            value.write_to(bytes);
+        }
+    }
+}
+
+macro_rules! glam_type {
+    ($($ty:ty: $size:literal, $align:literal, $to:ident;)*) => {$(
+        // glam chooses alignment by target and feature; host and device are held to one choice here.
+        const _: () = assert!(size_of::<$ty>() == $size && align_of::<$ty>() == $align);
+        // SAFETY: size and alignment are asserted for each target; the components come first and in order.
+        unsafe impl DeviceData for $ty {
+            #[inline]
+            fn write_to(&self, bytes: &mut [u8]) {
+                let components = self.$to();
+                components.write_to(&mut bytes[..size_of_val(&components)]);
+            }
+        }
+    )*};
+}
+
+glam_type! {
+    Vec2: 8, 8, to_array;
+    Vec3: 12, 4, to_array;
+    Vec3A: 16, 16, to_array;
+    Vec4: 16, 16, to_array;
+    UVec2: 8, 8, to_array;
+    UVec3: 12, 4, to_array;
+    UVec4: 16, 16, to_array;
+    IVec2: 8, 8, to_array;
+    IVec3: 12, 4, to_array;
+    IVec4: 16, 16, to_array;
+    Quat: 16, 16, to_array;
+    Mat3: 36, 4, to_cols_array;
+    Mat4: 64, 16, to_cols_array;
+}
+
+const _: () = assert!(size_of::<Affine3A>() == 64 && align_of::<Affine3A>() == 16);
+// SAFETY: four columns of `Vec3A`, asserted above.
+unsafe impl DeviceData for Affine3A {
+    #[inline]
+    fn write_to(&self, bytes: &mut [u8]) {
+        let columns =
+            [self.matrix3.x_axis, self.matrix3.y_axis, self.matrix3.z_axis, self.translation];
+        columns.write_to(bytes);
+    }
+}
+
+macro_rules! view {
+    ($($ty:ty),*) => {$(
+        // SAFETY: `#[repr(C)]` integers and a pointer, 64 bits on both machines.
+        unsafe impl<T: Element> DeviceData for $ty {
+            #[inline]
+            fn write_to(&self, bytes: &mut [u8]) {
+                self.to_raw().write_to(bytes);
+            }
+        }
+    )*};
+}
+use crate::view::Element;
+view!(Slice<T>, SliceMut<T>, SliceMut2d<T>);
+
+// SAFETY: a transparent `u64`.
+unsafe impl DeviceData for Traversable {
+    #[inline]
+    fn write_to(&self, bytes: &mut [u8]) {
+        self.to_raw().write_to(bytes);
+    }
+}

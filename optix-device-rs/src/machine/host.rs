@@ -1,0 +1,172 @@
+//! Device functions on the host: each reads the frame that the executor made for the program call.
+
+use super::TraceCall;
+use crate::host::Frame;
+use crate::params::LaunchParams;
+use crate::words::WordBuffer;
+use core::marker::PhantomData;
+use core::ptr::NonNull;
+use glam::{UVec3, Vec2, Vec3};
+
+/// The running program's frame.
+#[derive(Clone, Copy)]
+pub struct Cx(NonNull<Frame<'static>>);
+
+/// The launch's parameters, for as long as the program's context is borrowed.
+pub struct ParamsBase<'a, P>(NonNull<u8>, PhantomData<&'a P>);
+
+impl<P> Clone for ParamsBase<'_, P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<P> Copy for ParamsBase<'_, P> {}
+
+/// The parameter field at byte `OFFSET`.
+///
+/// # Safety
+/// `P` has a field of type `T` at `OFFSET`.
+#[inline(always)]
+pub unsafe fn load_param<P: LaunchParams, T: Copy, const OFFSET: usize>(base: ParamsBase<'_, P>) -> T {
+    // SAFETY: the executor's parameters are a valid `P` (`Cx::new`), and the caller vouches for the field.
+    unsafe { base.0.add(OFFSET).cast::<T>().read() }
+}
+
+impl Cx {
+    /// The context of a program call.
+    ///
+    /// # Safety
+    /// `frame` outlives every use of the context (the program call), its parameters are a valid `P::Params` of the
+    /// pipeline whose program is called, and its record is of the program's record type.
+    pub unsafe fn new(frame: &Frame<'_>) -> Self {
+        Self(NonNull::from(frame).cast())
+    }
+
+    #[inline(always)]
+    fn frame(&self) -> &Frame<'static> {
+        // SAFETY: the promise of `new`; the reference does not leave the methods below.
+        unsafe { self.0.as_ref() }
+    }
+
+    #[inline(always)]
+    pub fn params<P>(&self) -> ParamsBase<'_, P> {
+        ParamsBase(self.frame().params, PhantomData)
+    }
+    #[inline(always)]
+    pub fn record(&self) -> *const u8 {
+        self.frame().record.as_ptr()
+    }
+    #[inline(always)]
+    pub fn launch_index(&self) -> UVec3 {
+        self.frame().launch_index
+    }
+    #[inline(always)]
+    pub fn launch_dimensions(&self) -> UVec3 {
+        self.frame().launch_dimensions
+    }
+    #[inline(always)]
+    pub fn trace(&self, call: &TraceCall) -> WordBuffer {
+        let mut payload = call.payload;
+        self.frame().executor.trace(call, &mut payload);
+        payload
+    }
+    #[inline(always)]
+    pub fn set_payload_type(&self, _: u32) {}
+    #[inline(always)]
+    pub fn payload(&self, _mask: u32) -> WordBuffer {
+        self.frame().payload.get()
+    }
+    #[inline(always)]
+    pub fn set_payload(&self, mask: u32, words: &WordBuffer) {
+        let mut payload = self.frame().payload.get();
+        for i in 0..32 {
+            if mask & 1 << i != 0 {
+                payload.0[i] = words.0[i];
+            }
+        }
+        self.frame().payload.set(payload);
+    }
+    #[inline(always)]
+    pub fn world_ray_origin(&self) -> Vec3 {
+        self.frame().ray.origin
+    }
+    #[inline(always)]
+    pub fn world_ray_direction(&self) -> Vec3 {
+        self.frame().ray.direction
+    }
+    #[inline(always)]
+    pub fn object_ray_origin(&self) -> Vec3 {
+        self.frame().object_ray.0
+    }
+    #[inline(always)]
+    pub fn object_ray_direction(&self) -> Vec3 {
+        self.frame().object_ray.1
+    }
+    #[inline(always)]
+    pub fn ray_tmin(&self) -> f32 {
+        self.frame().ray.tmin
+    }
+    #[inline(always)]
+    pub fn ray_tmax(&self) -> f32 {
+        self.frame().executor.ray_tmax(self.frame())
+    }
+    #[inline(always)]
+    pub fn ray_time(&self) -> f32 {
+        self.frame().ray.time
+    }
+    #[inline(always)]
+    pub fn ray_flags(&self) -> u32 {
+        self.frame().ray.flags.bits()
+    }
+    #[inline(always)]
+    pub fn ray_mask(&self) -> u32 {
+        self.frame().ray.mask as u32
+    }
+    #[inline(always)]
+    pub fn primitive_index(&self) -> u32 {
+        self.frame().hit.primitive_index
+    }
+    #[inline(always)]
+    pub fn sbt_gas_index(&self) -> u32 {
+        self.frame().hit.sbt_gas_index
+    }
+    #[inline(always)]
+    pub fn instance_id(&self) -> u32 {
+        self.frame().hit.instance_id
+    }
+    #[inline(always)]
+    pub fn instance_index(&self) -> u32 {
+        self.frame().hit.instance_index
+    }
+    #[inline(always)]
+    pub fn hit_kind(&self) -> u32 {
+        self.frame().hit.kind as u32
+    }
+    #[inline(always)]
+    pub fn barycentrics(&self) -> Vec2 {
+        let [u, v, ..] = self.frame().hit.attributes.0;
+        Vec2::new(f32::from_bits(u), f32::from_bits(v))
+    }
+    #[inline(always)]
+    pub fn attributes(&self, _count: usize) -> WordBuffer {
+        self.frame().hit.attributes
+    }
+    #[inline(always)]
+    pub fn triangle_vertices(&self) -> [Vec3; 3] {
+        self.frame().executor.triangle_vertices()
+    }
+    /// Three rows of the object-to-world matrix.
+    #[inline(always)]
+    pub fn object_to_world(&self) -> [[f32; 4]; 3] {
+        self.frame().executor.object_to_world()
+    }
+    /// Three rows of the world-to-object matrix.
+    #[inline(always)]
+    pub fn world_to_object(&self) -> [[f32; 4]; 3] {
+        self.frame().executor.world_to_object()
+    }
+    #[inline(always)]
+    pub fn report(&self, t: f32, kind: u32, count: usize, attributes: &WordBuffer) -> bool {
+        self.frame().executor.report(t, (kind & 0x7f) as u8, count, attributes)
+    }
+}

@@ -1,0 +1,28 @@
+//! The machine a program runs on: OptiX intrinsics on the device, the executor's frame on the host.
+//!
+//! [`Cx`] has the same methods on both, so that everything above this module has one body.
+
+#[cfg(target_arch = "nvptx64")]
+mod ptx;
+#[cfg(target_arch = "nvptx64")]
+pub use ptx::{Cx, ParamsBase, load_param, trap};
+
+#[cfg(not(target_arch = "nvptx64"))]
+mod host;
+#[cfg(not(target_arch = "nvptx64"))]
+pub use host::{Cx, ParamsBase, load_param};
+
+use crate::words::WordBuffer;
+
+/// The arguments of a trace call, all derived from the ray and the ray type.
+#[derive(Clone, Copy, Debug)]
+pub struct TraceCall {
+    pub payload_type: u32,
+    pub payload_words: usize,
+    pub traversable: u64,
+    pub ray: crate::ray::Ray,
+    pub sbt_offset: u32,
+    pub sbt_stride: u32,
+    pub miss_index: u32,
+    pub payload: WordBuffer,
+}

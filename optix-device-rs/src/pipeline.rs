@@ -1,0 +1,58 @@
+//! A pipeline as a type: what `pipeline!` declares, and what host and device read from it.
+
+use crate::attributes::Geometry;
+use crate::params::LaunchParams;
+use crate::payload::Payload;
+use crate::record::SbtRecord;
+
+/// A pipeline: launch parameters, ray types, hit groups and programs under one name. Made by `pipeline!`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a pipeline",
+    label = "expected a type that `pipeline!` declares"
+)]
+pub trait Pipeline: Sized + 'static {
+    /// The launch parameters.
+    type Params: LaunchParams;
+    /// How many ray types there are: the SBT stride of every trace call.
+    const RAY_TYPES: u32;
+    /// All of it as a value, for the host.
+    #[cfg(not(target_arch = "nvptx64"))]
+    const DESCRIPTION: crate::host::PipelineDescription;
+}
+
+/// The pipeline traces rays of type `R`; a ray type is named by its payload.
+#[diagnostic::on_unimplemented(
+    message = "pipeline `{Self}` has no ray type `{R}`",
+    label = "`{R}` is not among the `rays` of `{Self}`",
+    note = "add `{R}: {{ miss: .. }}` to `rays` in `pipeline!`, or bound a generic program by `P: HasRay<{R}>`"
+)]
+pub trait HasRay<R: Payload>: Pipeline {
+    /// The ray type's number: SBT offset of its hit-group records and index of its miss record.
+    const INDEX: u32;
+    /// `OptixPayloadTypeID` of its payload in the pipeline's modules.
+    const PAYLOAD_TYPE: u32 = 1 << Self::INDEX;
+    /// The record of its miss program.
+    type MissRecord: SbtRecord;
+}
+
+/// The pipeline has a hit group for material `Rec` on geometry `G`; a material is named by its record.
+#[diagnostic::on_unimplemented(
+    message = "pipeline `{Self}` has no hit group for material `{Rec}` on `{G}`",
+    label = "`{Rec} on {G}` is not among the `hitgroups` of `{Self}`"
+)]
+pub trait HasHitGroup<Rec: SbtRecord, G: Geometry>: Pipeline {
+    /// The hit group's number in the pipeline's description.
+    const INDEX: u32;
+}
+
+/// The pipeline has the ray-generation program that type `Prog` stands for.
+#[diagnostic::on_unimplemented(
+    message = "`{Prog}` is not a ray-generation program of pipeline `{Self}`",
+    label = "not among the `raygen` programs of `{Self}`"
+)]
+pub trait HasRayGen<Prog>: Pipeline {
+    /// The program's number in the pipeline's description.
+    const INDEX: u32;
+    /// Its record.
+    type Record: SbtRecord;
+}

@@ -1,0 +1,22 @@
+//! What a shader crate uses: `use optix_device_rs::prelude::*;`.
+
+pub use crate::attributes::{Attributes, Custom, Triangles};
+pub use crate::data::DeviceData;
+pub use crate::math::{Math, Onb};
+pub use crate::params::LaunchParams;
+pub use crate::payload::Payload;
+pub use crate::pipeline::{HasHitGroup, HasRay, Pipeline};
+pub use crate::program::{AnyHit, ClosestHit, Face, Intersection, Miss, RayGen, Transform};
+pub use crate::ray::{AnyHitMode, CullFaces, Decision, Ray, RayFlags, Traversable};
+pub use crate::record::SbtRecord;
+pub use crate::rng::Pcg32;
+pub use crate::spawn::SurfacePoint;
+pub use crate::view::{Element, Slice, SliceMut, SliceMut2d};
+pub use crate::words::Words;
+pub use glam::{
+    Affine3A, Mat3, Mat4, Quat, UVec2, UVec3, UVec4, Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles,
+};
+pub use optix_macros::{
+    Attributes, DeviceData, Element, Payload, SbtRecord, Words, anyhit, closesthit, intersection,
+    launch_params, miss, pipeline, raygen,
+};

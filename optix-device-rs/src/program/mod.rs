@@ -1,0 +1,217 @@
+//! Program contexts: what each kind of device program may ask, and nothing else (guide 13, table of legal calls).
+//!
+//! A context is zero-sized on the device and one pointer on the host. A program gets it by reference and can't keep it.
+
+#[doc(hidden)]
+pub mod entry;
+mod hit;
+pub use hit::{Face, Transform};
+mod trace;
+
+use crate::attributes::{Attributes, Triangles};
+use crate::data::DeviceData;
+use crate::machine::Cx;
+use crate::params::LaunchParams;
+use crate::payload::Payload;
+use crate::pipeline::Pipeline;
+use crate::ray::{Decision, RayFlags};
+use crate::record::SbtRecord;
+use crate::words::WordBuffer;
+use core::marker::PhantomData;
+use glam::{UVec3, Vec3};
+
+macro_rules! context {
+    ($(#[$doc:meta])* $name:ident<P $(, $a:ident)?>) => {
+        $(#[$doc])*
+        pub struct $name<P $(, $a)?> {
+            cx: Cx,
+            types: PhantomData<(P, $($a)?)>,
+        }
+
+        impl<P $(, $a)?> $name<P $(, $a)?> {
+            #[inline(always)]
+            pub(crate) fn new(cx: Cx) -> Self {
+                Self { cx, types: PhantomData }
+            }
+        }
+
+        impl<P: Pipeline $(, $a)?> $name<P $(, $a)?> {
+            /// The launch parameters, field by field (guide 6.5).
+            #[inline(always)]
+            pub fn params(&self) -> <P::Params as LaunchParams>::View<'_> {
+                self.cx.params::<P::Params>().into()
+            }
+        }
+
+        impl<P $(, $a)?> $name<P $(, $a)?> {
+            /// This launch index (guide 13.1).
+            #[inline(always)]
+            pub fn launch_index(&self) -> UVec3 {
+                self.cx.launch_index()
+            }
+
+            /// The launch's dimensions (guide 13.1).
+            #[inline(always)]
+            pub fn launch_dimensions(&self) -> UVec3 {
+                self.cx.launch_dimensions()
+            }
+        }
+    };
+}
+
+context! {
+    /// Ray generation: one call per launch index (guide 2.2).
+    RayGen<P>
+}
+context! {
+    /// Intersection of a custom primitive; hits carry attributes `A` (guide 13.4).
+    Intersection<P, A>
+}
+context! {
+    /// Any-hit: decides about a candidate hit (guide 13.13).
+    AnyHit<P, A>
+}
+context! {
+    /// Closest-hit: shades the closest accepted hit.
+    ClosestHit<P, A>
+}
+context! {
+    /// Miss: the ray hit nothing.
+    Miss<P>
+}
+
+/// Ray queries: intersection, any-hit, closest-hit and miss programs (guide 13.5).
+macro_rules! ray_queries {
+    ($($name:ident<P $(, $a:ident)?>),*) => {$(
+        impl<P $(, $a)?> $name<P $(, $a)?> {
+            /// Origin in world space, as passed to trace.
+            #[inline(always)]
+            pub fn world_ray_origin(&self) -> Vec3 {
+                self.cx.world_ray_origin()
+            }
+            /// Direction in world space, as passed to trace.
+            #[inline(always)]
+            pub fn world_ray_direction(&self) -> Vec3 {
+                self.cx.world_ray_direction()
+            }
+            /// Least `t`, as passed to trace.
+            #[inline(always)]
+            pub fn ray_tmin(&self) -> f32 {
+                self.cx.ray_tmin()
+            }
+            /// Intersection and closest-hit: the nearest accepted `t` so far, else as passed to trace; any-hit: the
+            /// candidate's `t`; miss: as passed to trace.
+            #[inline(always)]
+            pub fn ray_tmax(&self) -> f32 {
+                self.cx.ray_tmax()
+            }
+            /// Time, as passed to trace; 0 in a pipeline without motion.
+            #[inline(always)]
+            pub fn ray_time(&self) -> f32 {
+                self.cx.ray_time()
+            }
+            /// Flags, as passed to trace.
+            #[inline(always)]
+            pub fn ray_flags(&self) -> RayFlags {
+                RayFlags::from_bits(self.cx.ray_flags())
+            }
+            /// Visibility mask, as passed to trace.
+            #[inline(always)]
+            pub fn ray_visibility_mask(&self) -> u8 {
+                self.cx.ray_mask() as u8
+            }
+        }
+    )*};
+}
+ray_queries!(Intersection<P, A>, AnyHit<P, A>, ClosestHit<P, A>, Miss<P>);
+
+impl<P, A: Attributes> Intersection<P, A> {
+    /// Reports a hit at `t` (guide 13.4).
+    ///
+    /// True if it was accepted: inside the current interval and not ignored by the any-hit program. `kind` is 0 to 127;
+    /// its eighth bit is not used.
+    #[inline(always)]
+    pub fn report(&self, t: f32, kind: u8, attributes: A) -> bool {
+        let mut words = WordBuffer::ZERO;
+        attributes.store(&mut words);
+        self.cx.report(t, kind as u32 & 0x7f, A::WORDS, &words)
+    }
+}
+
+/// A ray-generation program; made by `#[raygen]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be a ray-generation program of pipeline `{P}`",
+    label = "expected a function with `#[raygen]` whose context is `&RayGen<{P}>`"
+)]
+pub trait RayGenProgram<P: Pipeline> {
+    /// What it reads from its record; `()` if nothing.
+    type Record: SbtRecord;
+    /// Calls the function.
+    fn run(cx: &RayGen<P>, record: &Self::Record);
+}
+
+/// A miss program for rays with payload `R`; made by `#[miss]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be the miss program of ray type `{R}` in pipeline `{P}`",
+    label = "its context, payload or result is another's",
+    note = "expected `#[miss] fn(ms: &Miss<{P}>, [record: &..], [ray: {R}AtMiss]) -> {R}FromMiss`; leave out what the payload does not have"
+)]
+pub trait MissProgram<P: Pipeline, R: Payload> {
+    /// What it reads from its record; `()` if nothing.
+    type Record: SbtRecord;
+    /// Calls the function.
+    fn run(cx: &Miss<P>, record: &Self::Record, input: R::AtMiss) -> R::FromMiss;
+}
+
+/// A closest-hit program for hits `A` on material `Rec`, rays with payload `R`; made by `#[closesthit]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be the closest-hit program of material `{Rec}` for ray type `{R}` in pipeline `{P}`",
+    label = "its context, record, payload or result is another's",
+    note = "expected `#[closesthit] fn(hit: &ClosestHit<{P}, {A}>, [record: &{Rec}], [ray: {R}AtClosestHit]) -> {R}FromClosestHit`; leave out what the payload does not have"
+)]
+pub trait ClosestHitProgram<P: Pipeline, A: Attributes, Rec: SbtRecord, R: Payload> {
+    /// Calls the function.
+    fn run(cx: &ClosestHit<P, A>, record: &Rec, input: R::AtClosestHit) -> R::FromClosestHit;
+}
+
+/// An any-hit program for hits `A` on material `Rec`, rays with payload `R`; made by `#[anyhit]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be the any-hit program of material `{Rec}` for ray type `{R}` in pipeline `{P}`",
+    label = "its context, record, payload or result is another's",
+    note = "expected `#[anyhit] fn(hit: &AnyHit<{P}, {A}>, [record: &{Rec}], [ray: {R}AtAnyHit]) -> Decision`, or `-> (Decision, {R}FromAnyHit)` where it writes the payload"
+)]
+pub trait AnyHitProgram<P: Pipeline, A: Attributes, Rec: SbtRecord, R: Payload> {
+    /// Calls the function.
+    fn run(cx: &AnyHit<P, A>, record: &Rec, input: R::AtAnyHit) -> (Decision, R::FromAnyHit);
+}
+
+/// An intersection program of material `Rec`, rays with payload `R`; made by `#[intersection]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be the intersection program of material `{Rec}` for ray type `{R}` in pipeline `{P}`",
+    label = "its context, record, payload or result is another's",
+    note = "expected `#[intersection] fn(isect: &Intersection<{P}, ..>, [record: &{Rec}], [ray: {R}AtIntersection]) [-> {R}FromIntersection]`"
+)]
+pub trait IntersectionProgram<P: Pipeline, Rec: SbtRecord, R: Payload> {
+    /// What its hits carry.
+    type Attributes: Attributes;
+    /// Calls the function.
+    fn run(
+        cx: &Intersection<P, Self::Attributes>,
+        record: &Rec,
+        input: R::AtIntersection,
+    ) -> R::FromIntersection;
+}
+
+/// Reads the record; its type was checked by `pipeline!` and its layout is [`DeviceData`]'s.
+///
+/// # Safety
+/// The running program's record holds a `Rec`.
+#[inline(always)]
+unsafe fn record<Rec: DeviceData>(cx: &Cx) -> &Rec {
+    if size_of::<Rec>() == 0 {
+        // SAFETY: nothing is read; the address only has to be aligned.
+        return unsafe { core::ptr::NonNull::dangling().as_ref() };
+    }
+    // SAFETY: the caller's; OptiX aligns record data to 16 bytes (guide 7.2), which `RecordLayout` checks to be enough.
+    unsafe { &*cx.record().cast::<Rec>() }
+}

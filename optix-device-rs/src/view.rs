@@ -1,0 +1,271 @@
+//! Typed views of device memory: what a `Slice<T>` field of parameters or records is inside a program.
+//!
+//! An index out of range ends the program (a trap on the device, an error with the launch index on the CPU); no access
+//! is outside the buffer. Memory that programs write is shared by all launch indices: writes of one may be seen by
+//! another at any time until the launch ends (guide 6.2), but are never torn below 32 bits.
+
+use crate::data::DeviceData;
+use core::marker::PhantomData;
+use core::mem::MaybeUninit;
+use core::sync::atomic::{AtomicU8, AtomicU32, Ordering::Relaxed};
+use glam::UVec2;
+
+/// What views hold: plain data without views inside, so that no program can forge a view by writing one.
+///
+/// # Safety
+/// Any bytes are a valid value, and there is no padding.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be an element of a device buffer",
+    label = "not plain data",
+    note = "use numbers, glam vectors, arrays of these, or `#[derive(Element)]` with `#[repr(C)]` on your struct of these"
+)]
+pub unsafe trait Element: DeviceData {}
+
+macro_rules! element {
+    ($($ty:ty),*) => {$(
+        // SAFETY: any bytes are valid and there is no padding.
+        unsafe impl Element for $ty {}
+    )*};
+}
+element!(u8, i8, u16, i16, u32, i32, u64, i64, f32, f64);
+element!(glam::Vec2, glam::Vec3, glam::Vec4, glam::UVec2, glam::UVec3, glam::UVec4);
+element!(glam::IVec2, glam::IVec3, glam::IVec4, glam::Quat, glam::Mat3, glam::Mat4);
+// SAFETY: as its elements.
+unsafe impl<T: Element, const N: usize> Element for [T; N] {}
+
+/// Copies an element out of memory that other launch indices may write.
+///
+/// # Safety
+/// `at` is aligned for `T` and valid for reads of `T` while the call lasts.
+#[inline(always)]
+unsafe fn read<T: Element>(at: *const T) -> T {
+    if cfg!(target_arch = "nvptx64") {
+        // SAFETY: the caller's; device memory is not under Rust's host memory model (guide 6.2).
+        return unsafe { at.read() };
+    }
+    let mut value = MaybeUninit::<T>::uninit();
+    if size_of::<T>().is_multiple_of(4) && align_of::<T>().is_multiple_of(4) {
+        let (from, to) = (at as *mut u32, value.as_mut_ptr().cast::<u32>());
+        for i in 0..size_of::<T>() / 4 {
+            // SAFETY: inside the element; aligned to 4 as `T` is.
+            unsafe { to.add(i).write(AtomicU32::from_ptr(from.add(i)).load(Relaxed)) };
+        }
+    } else {
+        let (from, to) = (at as *mut u8, value.as_mut_ptr().cast::<u8>());
+        for i in 0..size_of::<T>() {
+            // SAFETY: inside the element.
+            unsafe { to.add(i).write(AtomicU8::from_ptr(from.add(i)).load(Relaxed)) };
+        }
+    }
+    // SAFETY: every byte is written, and any bytes are a `T` (`Element`).
+    unsafe { value.assume_init() }
+}
+
+/// Copies an element into memory that other launch indices may read or write.
+///
+/// # Safety
+/// `at` is aligned for `T` and valid for writes of `T` while the call lasts.
+#[inline(always)]
+unsafe fn write<T: Element>(at: *mut T, value: T) {
+    if cfg!(target_arch = "nvptx64") {
+        // SAFETY: the caller's.
+        return unsafe { at.write(value) };
+    }
+    if size_of::<T>().is_multiple_of(4) && align_of::<T>().is_multiple_of(4) {
+        let (from, to) = ((&raw const value).cast::<u32>(), at.cast::<u32>());
+        for i in 0..size_of::<T>() / 4 {
+            // SAFETY: inside the element; aligned to 4 as `T` is, without padding (`Element`).
+            unsafe { AtomicU32::from_ptr(to.add(i)).store(from.add(i).read(), Relaxed) };
+        }
+    } else {
+        let (from, to) = ((&raw const value).cast::<u8>(), at.cast::<u8>());
+        for i in 0..size_of::<T>() {
+            // SAFETY: inside the element, without padding (`Element`).
+            unsafe { AtomicU8::from_ptr(to.add(i)).store(from.add(i).read(), Relaxed) };
+        }
+    }
+}
+
+#[cfg(not(target_arch = "nvptx64"))]
+#[cold]
+#[inline(never)]
+fn out_of_range(what: &str, index: usize, len: usize) -> ! {
+    panic!("{what} index {index} is out of range: the buffer has {len} elements")
+}
+
+macro_rules! check {
+    ($what:literal, $index:expr, $len:expr) => {
+        if $index >= $len {
+            // The device has no use for the message, and formatting code would be in the PTX.
+            #[cfg(target_arch = "nvptx64")]
+            crate::machine::trap();
+            #[cfg(not(target_arch = "nvptx64"))]
+            out_of_range($what, $index as usize, $len as usize);
+        }
+    };
+}
+
+macro_rules! linear_view {
+    ($(#[$doc:meta])* $name:ident, $what:literal, $ptr:ty) => {
+        $(#[$doc])*
+        #[repr(C)]
+        pub struct $name<T> {
+            address: u64,
+            len: u64,
+            elements: PhantomData<$ptr>,
+        }
+
+        impl<T> Clone for $name<T> {
+            #[inline(always)]
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+        impl<T> Copy for $name<T> {}
+
+        impl<T> core::fmt::Debug for $name<T> {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                write!(f, concat!(stringify!($name), "({} elements)"), self.len)
+            }
+        }
+
+        // SAFETY: a view is an address; what it points to is read and written with atomics on the host.
+        unsafe impl<T: Send> Send for $name<T> {}
+        // SAFETY: as above.
+        unsafe impl<T: Send + Sync> Sync for $name<T> {}
+
+        impl<T: Element> $name<T> {
+            /// No elements.
+            pub const EMPTY: Self = Self { address: 0, len: 0, elements: PhantomData };
+
+            /// From an address; for backends.
+            ///
+            /// # Safety
+            /// `len` elements at `address`, aligned for `T`, stay valid on the launching machine while programs may use
+            /// the view.
+            #[doc(hidden)]
+            pub const unsafe fn from_raw(address: u64, len: u64) -> Self {
+                Self { address, len, elements: PhantomData }
+            }
+
+            #[doc(hidden)]
+            pub const fn to_raw(self) -> [u64; 2] {
+                [self.address, self.len]
+            }
+
+            /// How many elements there are.
+            #[inline(always)]
+            pub const fn len(self) -> usize {
+                self.len as usize
+            }
+
+            /// Whether there are none.
+            #[inline(always)]
+            pub const fn is_empty(self) -> bool {
+                self.len == 0
+            }
+
+            /// The element at `index`. An index out of range ends the program.
+            #[inline(always)]
+            pub fn get(self, index: u32) -> T {
+                check!($what, index as u64, self.len);
+                // SAFETY: in range, and `from_raw` promised `len` valid elements.
+                unsafe { read((self.address as *const T).add(index as usize)) }
+            }
+        }
+    };
+}
+
+linear_view! {
+    /// Elements that programs read.
+    ///
+    /// ```
+    /// use optix_device_rs::prelude::*;
+    /// fn third(normals: Slice<Vec3>) -> Vec3 {
+    ///     normals.get(2)
+    /// }
+    /// ```
+    Slice, "Slice", *const T
+}
+linear_view! {
+    /// Elements that programs read and write.
+    SliceMut, "SliceMut", *mut T
+}
+
+impl<T: Element> SliceMut<T> {
+    /// Sets the element at `index`. An index out of range ends the program.
+    #[inline(always)]
+    pub fn set(self, index: u32, value: T) {
+        check!("SliceMut", index as u64, self.len);
+        // SAFETY: in range, and `from_raw` promised `len` valid elements.
+        unsafe { write((self.address as *mut T).add(index as usize), value) }
+    }
+}
+
+/// A two-dimensional array that programs read and write, row by row: the film of a camera.
+#[repr(C)]
+pub struct SliceMut2d<T> {
+    address: u64,
+    width: u32,
+    height: u32,
+    elements: PhantomData<*mut T>,
+}
+
+impl<T> Clone for SliceMut2d<T> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<T> Copy for SliceMut2d<T> {}
+
+// SAFETY: a view is an address; what it points to is read and written with atomics on the host.
+unsafe impl<T: Send> Send for SliceMut2d<T> {}
+// SAFETY: as above.
+unsafe impl<T: Send + Sync> Sync for SliceMut2d<T> {}
+
+impl<T: Element> SliceMut2d<T> {
+    /// From an address; for backends.
+    ///
+    /// # Safety
+    /// `width * height` elements at `address`, aligned for `T`, stay valid on the launching machine while programs may
+    /// use the view.
+    #[doc(hidden)]
+    pub const unsafe fn from_raw(address: u64, width: u32, height: u32) -> Self {
+        Self { address, width, height, elements: PhantomData }
+    }
+
+    #[doc(hidden)]
+    pub const fn to_raw(self) -> [u64; 2] {
+        [self.address, self.width as u64 | (self.height as u64) << 32]
+    }
+
+    /// Width and height.
+    #[inline(always)]
+    pub const fn size(self) -> UVec2 {
+        UVec2::new(self.width, self.height)
+    }
+
+    #[inline(always)]
+    fn at(self, at: UVec2) -> *mut T {
+        check!("column", at.x, self.width);
+        check!("row", at.y, self.height);
+        let index = at.y as usize * self.width as usize + at.x as usize;
+        // Stays inside the array: both coordinates are in range.
+        (self.address as *mut T).wrapping_add(index)
+    }
+
+    /// The element in column `at.x` of row `at.y`. A place outside ends the program.
+    #[inline(always)]
+    pub fn get(self, at: UVec2) -> T {
+        // SAFETY: `at` is in range, and `from_raw` promised valid elements.
+        unsafe { read(self.at(at)) }
+    }
+
+    /// Sets the element in column `at.x` of row `at.y`. A place outside ends the program.
+    #[inline(always)]
+    pub fn set(self, at: UVec2, value: T) {
+        // SAFETY: `at` is in range, and `from_raw` promised valid elements.
+        unsafe { write(self.at(at), value) }
+    }
+}

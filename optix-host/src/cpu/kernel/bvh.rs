@@ -1,0 +1,121 @@
+//! The 8-wide bounding volume hierarchy and its memory layout.
+
+use super::aabb::Aabb;
+use super::binary::Binary;
+use super::collapse::{Plan, Shape};
+
+/// Children of a node, and lanes of a block of triangles.
+pub const WIDTH: usize = 8;
+
+/// Eight floats in a vector register's layout.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub struct Lanes(pub [f32; WIDTH]);
+
+/// Eight child boxes as structure of arrays, and eight [`Child`]ren. A free slot has the box `[inf, -inf]`, which no
+/// finite ray enters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub struct Node {
+    /// `min x, max x, min y, max y, min z, max z`.
+    pub planes: [Lanes; 6],
+    pub child: [Child; WIDTH],
+}
+
+/// A reference to an inner node, or what a leaf stands for (31 bits, meaning chosen by the owner).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Child(pub u32);
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+
+    pub fn node(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    pub fn leaf(payload: u32) -> Self {
+        Self(payload | Self::LEAF)
+    }
+
+    #[inline(always)]
+    pub fn is_leaf(self) -> bool {
+        self.0 & Self::LEAF != 0
+    }
+
+    #[inline(always)]
+    pub fn payload(self) -> u32 {
+        self.0 & !Self::LEAF
+    }
+}
+
+impl Node {
+    const EMPTY: Self = Self {
+        planes: [
+            Lanes([f32::INFINITY; WIDTH]),
+            Lanes([f32::NEG_INFINITY; WIDTH]),
+            Lanes([f32::INFINITY; WIDTH]),
+            Lanes([f32::NEG_INFINITY; WIDTH]),
+            Lanes([f32::INFINITY; WIDTH]),
+            Lanes([f32::NEG_INFINITY; WIDTH]),
+        ],
+        child: [Child(Child::LEAF); WIDTH],
+    };
+
+    fn set(&mut self, lane: usize, bounds: &Aabb, child: Child) {
+        for a in 0..3 {
+            self.planes[2 * a].0[lane] = bounds.min[a];
+            self.planes[2 * a + 1].0[lane] = bounds.max[a];
+        }
+        self.child[lane] = child;
+    }
+}
+
+/// Entries of the traversal stack. A node leaves at most seven children waiting.
+pub const STACK: usize = 128;
+const MAX_DEPTH: usize = STACK / (WIDTH - 1);
+
+/// An 8-wide hierarchy over boxes; node 0 is the root. Empty if nothing is active.
+#[derive(Clone, Debug)]
+pub struct Bvh {
+    pub nodes: Vec<Node>,
+    pub bounds: Aabb,
+}
+
+impl Bvh {
+    /// Builds a hierarchy over `boxes`; empty boxes are left out. `leaf` gets the primitives of a leaf in ascending
+    /// order, at most `shape.leaf_size`, and gives its 31-bit payload.
+    pub fn build(boxes: &[Aabb], shape: Shape, mut leaf: impl FnMut(&[u32]) -> u32) -> Self {
+        let active: Vec<u32> = (0..boxes.len() as u32).filter(|&i| !boxes[i as usize].is_empty()).collect();
+        if active.is_empty() {
+            return Self { nodes: Vec::new(), bounds: Aabb::EMPTY };
+        }
+        let mut plan = Plan::new(Binary::by_surface_area(boxes, &active), shape);
+        if plan.depth() > MAX_DEPTH {
+            // Sizes that grow exponentially make a chain of any hierarchy with good costs; the stack must hold anyway.
+            plan = Plan::new(Binary::by_median(boxes, &active), shape);
+        }
+
+        let mut nodes = vec![Node::EMPTY];
+        let mut open = vec![(0, plan.root())];
+        let mut primitives = Vec::new();
+        while let Some((slot, wide)) = open.pop() {
+            for (lane, child) in plan.children(wide).into_iter().enumerate() {
+                let reference = if plan.is_leaf(child) {
+                    plan.primitives(child, &mut primitives);
+                    Child::leaf(leaf(&primitives))
+                } else {
+                    nodes.push(Node::EMPTY);
+                    open.push((nodes.len() - 1, child));
+                    Child::node(nodes.len() - 1)
+                };
+                nodes[slot].set(lane, plan.bounds(child), reference);
+            }
+        }
+        nodes.shrink_to_fit();
+        Self { nodes, bounds: *plan.bounds(plan.root()) }
+    }
+
+    pub fn memory_bytes(&self) -> usize {
+        self.nodes.len() * size_of::<Node>()
+    }
+}

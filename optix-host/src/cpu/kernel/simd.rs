@@ -1,0 +1,205 @@
+//! The two vector kernels, eight lanes each, portable and for AVX2.
+//!
+//! Both forms do the same IEEE operations in the same order, without fused multiply-add, so their results are
+//! bit-identical and a launch gives the same image on every machine.
+
+use super::bvh::{Lanes, Node, WIDTH};
+use super::ray::{BoxRay, ShearRay};
+use super::triangle::{Block, EDGE_ABSOLUTE, EDGE_RELATIVE};
+
+/// A piece of work that is compiled once for each instruction set.
+pub trait Task {
+    type Output;
+
+    fn run<S: Simd>(self, simd: S) -> Self::Output;
+}
+
+/// An instruction set; a value of the type is the proof that the machine has it.
+pub trait Simd: Copy {
+    /// Runs `task` in a function that is compiled with this instruction set.
+    fn run<T: Task>(self, task: T) -> T::Output;
+
+    /// Bit `i` tells whether the ray meets child box `i` at a depth in `[ray.depth_min, depth_max]`; `near[i]` is then
+    /// where it enters, at least `depth_min`.
+    fn boxes(self, node: &Node, ray: &BoxRay, depth_max: f32, near: &mut Lanes) -> u32;
+
+    /// Bit `i` is clear only if the line of the ray surely passes beside triangle `i`.
+    fn triangles(self, block: &Block, ray: &ShearRay) -> u32;
+}
+
+/// Plain Rust.
+#[derive(Clone, Copy, Debug)]
+pub struct Portable;
+
+/// The operand order of `vmaxps`, `vminps`.
+#[inline(always)]
+fn max(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn min(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+impl Simd for Portable {
+    #[inline(always)]
+    fn run<T: Task>(self, task: T) -> T::Output {
+        task.run(self)
+    }
+
+    #[inline(always)]
+    fn boxes(self, node: &Node, ray: &BoxRay, depth_max: f32, near: &mut Lanes) -> u32 {
+        let mut far = [0.0; WIDTH];
+        let plane = |a: usize| &node.planes[ray.near_plane[a]].0;
+        let [nx, ny, nz] = [plane(0), plane(1), plane(2)];
+        let plane = |a: usize| &node.planes[ray.near_plane[a] ^ 1].0;
+        let [fx, fy, fz] = [plane(0), plane(1), plane(2)];
+        for i in 0..WIDTH {
+            let x = (nx[i] - ray.near_origin[0]) * ray.inverse[0];
+            let y = (ny[i] - ray.near_origin[1]) * ray.inverse[1];
+            let z = (nz[i] - ray.near_origin[2]) * ray.inverse[2];
+            near.0[i] = max(max(x, y), max(z, ray.depth_min));
+            let x = (fx[i] - ray.far_origin[0]) * ray.inverse[0];
+            let y = (fy[i] - ray.far_origin[1]) * ray.inverse[1];
+            let z = (fz[i] - ray.far_origin[2]) * ray.inverse[2];
+            far[i] = min(min(x, y), min(z, depth_max));
+        }
+        (0..WIDTH).fold(0, |mask, i| mask | (u32::from(near.0[i] <= far[i]) << i))
+    }
+
+    #[inline(always)]
+    fn triangles(self, block: &Block, ray: &ShearRay) -> u32 {
+        let mut sheared = [[[0.0f32; WIDTH]; 2]; 3];
+        for (corner, out) in block.corners.iter().zip(&mut sheared) {
+            let [x, y, z] = ray.axes.map(|a| &corner[a].0);
+            let [ox, oy, oz] = ray.axes.map(|a| ray.origin[a]);
+            for i in 0..WIDTH {
+                let depth = z[i] - oz;
+                out[0][i] = (x[i] - ox) - ray.slope[0] * depth;
+                out[1][i] = (y[i] - oy) - ray.slope[1] * depth;
+            }
+        }
+        let [a, b, c] = &sheared;
+        let (mut above, mut below) = (0, 0);
+        for (from, to) in [(c, b), (a, c), (b, a)] {
+            for i in 0..WIDTH {
+                let p = from[0][i] * to[1][i];
+                let q = from[1][i] * to[0][i];
+                let value = p - q;
+                let bound = (p.abs() + q.abs()) * EDGE_RELATIVE + EDGE_ABSOLUTE;
+                above |= u32::from(value > bound) << i;
+                below |= u32::from(value < -bound) << i;
+            }
+        }
+        !(above & below) & 0xff
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+pub use avx2::Avx2;
+
+#[cfg(target_arch = "x86_64")]
+mod avx2 {
+    use std::arch::x86_64::*;
+
+    use super::*;
+
+    /// AVX2; made only by [`Avx2::detect`].
+    #[derive(Clone, Copy, Debug)]
+    pub struct Avx2(());
+
+    impl Avx2 {
+        #[inline]
+        pub fn detect() -> Option<Self> {
+            (is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi1")).then_some(Self(()))
+        }
+    }
+
+    impl Simd for Avx2 {
+        #[inline(always)]
+        fn run<T: Task>(self, task: T) -> T::Output {
+            // SAFETY: `detect` has seen AVX2 and BMI1, and nothing else makes a value of `Self`.
+            unsafe { run(self, task) }
+        }
+
+        #[inline(always)]
+        fn boxes(self, node: &Node, ray: &BoxRay, depth_max: f32, near: &mut Lanes) -> u32 {
+            // SAFETY: as in `run`.
+            unsafe { boxes(node, ray, depth_max, near) }
+        }
+
+        #[inline(always)]
+        fn triangles(self, block: &Block, ray: &ShearRay) -> u32 {
+            // SAFETY: as in `run`.
+            unsafe { triangles(block, ray) }
+        }
+    }
+
+    #[target_feature(enable = "avx2,bmi1")]
+    fn run<T: Task>(simd: Avx2, task: T) -> T::Output {
+        task.run(simd)
+    }
+
+    #[inline]
+    #[target_feature(enable = "avx2,bmi1")]
+    fn load(lanes: &Lanes) -> __m256 {
+        bytemuck::must_cast(lanes.0)
+    }
+
+    #[inline]
+    #[target_feature(enable = "avx2,bmi1")]
+    fn slab(node: &Node, plane: usize, origin: f32, inverse: f32) -> __m256 {
+        let distance = _mm256_sub_ps(load(&node.planes[plane]), _mm256_set1_ps(origin));
+        _mm256_mul_ps(distance, _mm256_set1_ps(inverse))
+    }
+
+    #[inline]
+    #[target_feature(enable = "avx2,bmi1")]
+    fn boxes(node: &Node, ray: &BoxRay, depth_max: f32, near: &mut Lanes) -> u32 {
+        let [nx, ny, nz] =
+            [0, 1, 2].map(|a| slab(node, ray.near_plane[a], ray.near_origin[a], ray.inverse[a]));
+        let [fx, fy, fz] =
+            [0, 1, 2].map(|a| slab(node, ray.near_plane[a] ^ 1, ray.far_origin[a], ray.inverse[a]));
+        let enter = _mm256_max_ps(_mm256_max_ps(nx, ny), _mm256_max_ps(nz, _mm256_set1_ps(ray.depth_min)));
+        let leave = _mm256_min_ps(_mm256_min_ps(fx, fy), _mm256_min_ps(fz, _mm256_set1_ps(depth_max)));
+        near.0 = bytemuck::must_cast(enter);
+        _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, leave)) as u32
+    }
+
+    #[inline]
+    #[target_feature(enable = "avx2,bmi1")]
+    fn triangles(block: &Block, ray: &ShearRay) -> u32 {
+        let [ox, oy, oz] = ray.axes.map(|a| _mm256_set1_ps(ray.origin[a]));
+        let [sx, sy] = ray.slope.map(|s| _mm256_set1_ps(s));
+        let shear = |corner: &[Lanes; 3]| {
+            let [x, y, z] = ray.axes.map(|a| load(&corner[a]));
+            let depth = _mm256_sub_ps(z, oz);
+            [
+                _mm256_sub_ps(_mm256_sub_ps(x, ox), _mm256_mul_ps(sx, depth)),
+                _mm256_sub_ps(_mm256_sub_ps(y, oy), _mm256_mul_ps(sy, depth)),
+            ]
+        };
+        let [a, b, c] = &block.corners;
+        let (a, b, c) = (shear(a), shear(b), shear(c));
+
+        let sign = _mm256_set1_ps(-0.0);
+        let (relative, absolute) = (_mm256_set1_ps(EDGE_RELATIVE), _mm256_set1_ps(EDGE_ABSOLUTE));
+        // Whether the edge function is surely positive, and surely negative.
+        let side = |from: [__m256; 2], to: [__m256; 2]| {
+            let p = _mm256_mul_ps(from[0], to[1]);
+            let q = _mm256_mul_ps(from[1], to[0]);
+            let value = _mm256_sub_ps(p, q);
+            let size = _mm256_add_ps(_mm256_andnot_ps(sign, p), _mm256_andnot_ps(sign, q));
+            let bound = _mm256_add_ps(_mm256_mul_ps(size, relative), absolute);
+            (
+                _mm256_cmp_ps::<_CMP_GT_OQ>(value, bound),
+                _mm256_cmp_ps::<_CMP_LT_OQ>(value, _mm256_xor_ps(sign, bound)),
+            )
+        };
+        let (u, v, w) = (side(c, b), side(a, c), side(b, a));
+        let above = _mm256_or_ps(_mm256_or_ps(u.0, v.0), w.0);
+        let below = _mm256_or_ps(_mm256_or_ps(u.1, v.1), w.1);
+        !(_mm256_movemask_ps(_mm256_and_ps(above, below)) as u32) & 0xff
+    }
+}

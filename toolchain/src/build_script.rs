@@ -1,0 +1,60 @@
+//! The conversation with cargo in a `build.rs`.
+
+use std::path::{Path, PathBuf};
+
+use crate::device_build::{self, Built};
+use crate::error::{Doing, Error};
+use crate::options::Shaders;
+use crate::util;
+
+/// Compiles, tells cargo the outcome, and ends the process where there is none.
+pub(crate) fn compile(shaders: &Shaders) {
+    if let Err(error) = try_compile(shaders) {
+        println!("cargo::error={error}");
+        eprintln!("error: {error}");
+        std::process::exit(1);
+    }
+}
+
+fn try_compile(shaders: &Shaders) -> Result<(), Error> {
+    let out_dir = variable("OUT_DIR")?;
+    let mut shaders = shaders.clone();
+    shaders.path = variable("CARGO_MANIFEST_DIR")?.join(&shaders.path);
+    println!("cargo::rerun-if-env-changed=OPTIX_RUSTC");
+
+    let area = util::target_dir(&out_dir).join("optix");
+    let (name, text) = match shaders.compile_in(area) {
+        Ok(built) => {
+            built.inputs.iter().for_each(|input| rerun_if_changed(input));
+            let Built { name, text, .. } = built;
+            (name, text)
+        }
+        Err(error @ Error::NoDeviceCompiler { .. }) => {
+            println!("cargo::warning=shaders run on the CPU only: {error}");
+            // A file that does not exist counts as changed, so the next build looks again.
+            rerun_if_changed(&out_dir.join("no-device-compiler"));
+            let (package, _) = device_build::shader_crate(&shaders.path)?;
+            (package.library.unwrap_or(package.name), String::new())
+        }
+        Err(error) => {
+            // Nothing is known of the crate's files; what was fixed outside of it must be noticed too.
+            rerun_if_changed(&out_dir.join("device-build-failed"));
+            return Err(error);
+        }
+    };
+    let ptx = out_dir.join(format!("{name}.ptx"));
+    std::fs::write(&ptx, text).doing(|| format!("cannot write {}", ptx.display()))?;
+    println!("cargo::rustc-env=OPTIX_PTX_{}={}", name.to_uppercase(), ptx.display());
+    Ok(())
+}
+
+fn rerun_if_changed(file: &Path) {
+    println!("cargo::rerun-if-changed={}", file.display());
+}
+
+fn variable(name: &str) -> Result<PathBuf, Error> {
+    std::env::var_os(name).map(PathBuf::from).ok_or_else(|| Error::Output {
+        of: "cargo".into(),
+        reason: format!("{name} is not set; `compile` is for build scripts, other programs use `compile_in`"),
+    })
+}

@@ -1,0 +1,87 @@
+//! A `libm` for the device.
+//!
+//! `no_std` crates such as glam call the `libm` crate, whose `sqrtf` is some 80 integer instructions. The device
+//! build replaces that crate by one of the same version which compiles `sqrt`, `floor`, `fma` and the like to the
+//! machine's instructions, and takes every other function from the original.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::Error;
+use crate::metadata::Package;
+use crate::util::{self, toml_string, write_if_changed};
+
+/// The name that the original goes by in the device build: two packages called `libm` of one version can't be
+/// told apart in a lock file.
+pub(crate) const SOFTWARE: &str = "optix-libm-software";
+
+const FUNCTIONS: &str = include_str!("../templates/libm.rs");
+
+/// The replacement on disk.
+pub(crate) struct PatchedLibm {
+    /// Its folder.
+    pub dir: PathBuf,
+    /// Its version, which is the original's.
+    pub version: String,
+}
+
+impl PatchedLibm {
+    /// Writes the replacement for the `libm` 0.2 among `packages` under `area`. `None`: nothing uses that.
+    pub fn write(area: &Path, packages: &[Package]) -> Result<Option<Self>, Error> {
+        let is_libm = |package: &&Package| {
+            let registry = package.source.as_deref().is_some_and(|source| source.starts_with("registry+"));
+            package.name == "libm" && package.version.starts_with("0.2.") && registry
+        };
+        let Some(original) = packages.iter().find(is_libm) else { return Ok(None) };
+        let name = format!("libm-{}", original.version);
+        let _lock = util::lock(&area.join(format!("{name}.lock")))?;
+        let dir = area.join(name);
+        copy_original(original, &dir.join("software"))?;
+        write_if_changed(&dir.join("Cargo.toml"), &manifest(original))?;
+        write_if_changed(&dir.join("src/lib.rs"), FUNCTIONS)?;
+        Ok(Some(Self { dir, version: original.version.clone() }))
+    }
+}
+
+/// Copies the package under its new name. A copy, because its build script wants to be beside its manifest.
+fn copy_original(original: &Package, to: &Path) -> Result<(), Error> {
+    let manifest = util::read(&original.manifest)?;
+    let renamed = manifest.replacen("\nname = \"libm\"", &format!("\nname = \"{SOFTWARE}\""), 1);
+    // The manifest is written last and says that the copy is complete.
+    if std::fs::read_to_string(to.join("Cargo.toml")).is_ok_and(|there| there == renamed) {
+        return Ok(());
+    }
+    for part in ["src", "build.rs", "configure.rs"] {
+        let source = original.dir().join(part);
+        if source.is_dir() {
+            util::copy_dir(&source, &to.join(part))?;
+        } else if source.is_file() {
+            write_if_changed(&to.join(part), &util::read(&source)?)?;
+        }
+    }
+    write_if_changed(&to.join("Cargo.toml"), &renamed)?;
+    Ok(())
+}
+
+fn manifest(original: &Package) -> String {
+    let mut text = format!(
+        "# Written by optix-toolchain; see its `libm` module.\n\
+         [package]\n\
+         name = \"libm\"\n\
+         version = \"{}\"\n\
+         edition = \"2024\"\n\
+         publish = false\n\n\
+         [dependencies.software]\n\
+         package = \"{SOFTWARE}\"\n\
+         path = \"software\"\n\
+         default-features = false\n\n\
+         [features]\n",
+        original.version
+    );
+    for feature in original.features.iter().filter(|feature| *feature != "default") {
+        text.push_str(&format!("{feature} = [{}]\n", toml_string(&format!("software/{feature}"))));
+    }
+    if original.features.iter().any(|feature| feature == "default") {
+        text.push_str("default = [\"software/default\"]\n");
+    }
+    text
+}

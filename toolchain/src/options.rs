@@ -1,0 +1,138 @@
+//! The options of a device build.
+
+use std::path::{Path, PathBuf};
+
+use crate::device_build::{self, Built};
+use crate::error::Error;
+use crate::util;
+
+/// The architecture that PTX is written for unless [`Shaders::arch`] says otherwise.
+///
+/// Turing is the first generation with ray-tracing cores, and the oldest that drivers newer than the 580 branch run.
+/// PTX is compiled again by the driver for the GPU that is there, and may be older than it but not newer: a GPU before
+/// Turing needs an older architecture here (OptiX 9 on driver 580 takes them from Maxwell, `sm_50`, on).
+pub const DEFAULT_ARCH: &str = "sm_75";
+
+/// A shader crate and how to compile it; [`shaders`](crate::shaders) with options.
+///
+/// The defaults are nvcc's: multiplications and additions contract to `fma`, division and square root are correctly
+/// rounded, subnormal numbers are kept, and there is no line information.
+///
+/// ```no_run
+/// // build.rs
+/// optix_toolchain::Shaders::new("shaders").arch("sm_86").line_info(true).compile();
+/// ```
+#[derive(Clone, Debug)]
+pub struct Shaders {
+    pub(crate) path: PathBuf,
+    pub(crate) arch: String,
+    pub(crate) contract: bool,
+    pub(crate) approximate: bool,
+    pub(crate) line_info: bool,
+    pub(crate) features: Vec<String>,
+    pub(crate) default_features: bool,
+    pub(crate) quiet: bool,
+}
+
+impl Shaders {
+    /// The shader crate in the folder `path`, which is relative to the package being built, or outside of a build
+    /// script to the current folder.
+    pub fn new(path: impl AsRef<Path>) -> Self {
+        Self {
+            path: path.as_ref().to_path_buf(),
+            arch: DEFAULT_ARCH.to_string(),
+            contract: true,
+            approximate: false,
+            line_info: false,
+            features: Vec::new(),
+            default_features: true,
+            quiet: true,
+        }
+    }
+
+    /// The oldest architecture that the PTX has to run on, such as `sm_86`. Default: [`DEFAULT_ARCH`].
+    pub fn arch(mut self, arch: impl Into<String>) -> Self {
+        self.arch = arch.into();
+        self
+    }
+
+    /// Whether `a * b + c` may become one `fma`, which rounds once instead of twice: nvcc's `-fmad`. Default: true.
+    pub fn contract(mut self, contract: bool) -> Self {
+        self.contract = contract;
+        self
+    }
+
+    /// Whether `f32` division and square root may be the faster approximate forms, with an error of at most 2 ulp and
+    /// 3 ulp instead of 0.5: nvcc's `-prec-div=false -prec-sqrt=false`. Default: false.
+    pub fn approximate(mut self, approximate: bool) -> Self {
+        self.approximate = approximate;
+        self
+    }
+
+    /// Whether the PTX says which source line an instruction comes from, for profilers: nvcc's `-lineinfo`. It
+    /// changes no instruction. Default: false.
+    pub fn line_info(mut self, line_info: bool) -> Self {
+        self.line_info = line_info;
+        self
+    }
+
+    /// Features of the shader crate to switch on. Default: none but its default features.
+    pub fn features<S: Into<String>>(mut self, features: impl IntoIterator<Item = S>) -> Self {
+        self.features = features.into_iter().map(Into::into).collect();
+        self
+    }
+
+    /// Whether the shader crate's default features are on. Default: true.
+    pub fn default_features(mut self, on: bool) -> Self {
+        self.default_features = on;
+        self
+    }
+
+    /// Whether to keep silent about progress, as a build script should. Diagnostics are shown always. Default: true.
+    pub fn quiet(mut self, quiet: bool) -> Self {
+        self.quiet = quiet;
+        self
+    }
+
+    /// Compiles it from a `build.rs`: see [`shaders`](crate::shaders).
+    pub fn compile(self) {
+        crate::build_script::compile(&self);
+    }
+
+    /// Compiles it from any other program. `area` is a folder for intermediate files: calls with the same one share
+    /// the work that is common to them. Cargo decides what there is to do; nothing changed costs about 0.3 s.
+    ///
+    /// ```no_run
+    /// let built = optix_toolchain::Shaders::new("shaders").compile_in("target/optix")?;
+    /// println!("{}: {}", built.ptx.display(), built.entries.join(", "));
+    /// # Ok::<(), optix_toolchain::Error>(())
+    /// ```
+    pub fn compile_in(&self, area: impl AsRef<Path>) -> Result<Built, Error> {
+        device_build::build(self, area.as_ref())
+    }
+
+    /// What `rustc` is given for each crate of the device build.
+    pub(crate) fn rustflags(&self, sysroot: &Path) -> Vec<String> {
+        let mut llvm = format!("-nvptx-fma-level={}", if self.contract { 2 } else { 0 });
+        if self.approximate {
+            llvm.push_str(" -nvptx-prec-divf32=1 -nvptx-prec-sqrtf32=0");
+        }
+        vec![
+            format!("--sysroot={}", sysroot.display()),
+            // What device code needs from the compiler beyond stable Rust is given from outside, so that a shader
+            // crate needs no `#![feature]` and compiles on the host with a stable compiler.
+            "-Zcrate-attr=feature(abi_ptx,asm_experimental_arch)".into(),
+            "-Aunused_features".into(),
+            format!("-Ctarget-cpu={}", self.arch),
+            format!("-Cllvm-args={llvm}"),
+        ]
+    }
+
+    /// Tells builds apart whose intermediate files must not be mixed.
+    pub(crate) fn key(&self, dir: &Path) -> String {
+        let switches = format!("{}{}{}{}", self.contract, self.approximate, self.line_info, self.default_features);
+        let dir = dir.to_string_lossy();
+        let parts = [dir.as_ref(), self.arch.as_str(), switches.as_str()];
+        util::hash(parts.into_iter().chain(self.features.iter().map(String::as_str)))
+    }
+}

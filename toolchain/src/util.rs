@@ -1,0 +1,96 @@
+//! Files, names and hashes.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+use crate::error::{Doing, Error};
+
+/// Writes `text` unless the file has it already, so that cargo sees an unchanged file as unchanged.
+/// Returns whether it wrote.
+pub(crate) fn write_if_changed(path: &Path, text: &str) -> Result<bool, Error> {
+    if fs::read_to_string(path).is_ok_and(|old| old == text) {
+        return Ok(false);
+    }
+    if let Some(parent) = path.parent() {
+        create_dir(parent)?;
+    }
+    fs::write(path, text).doing(|| format!("cannot write {}", path.display()))?;
+    Ok(true)
+}
+
+pub(crate) fn create_dir(path: &Path) -> Result<(), Error> {
+    fs::create_dir_all(path).doing(|| format!("cannot create the folder {}", path.display()))
+}
+
+pub(crate) fn read(path: &Path) -> Result<String, Error> {
+    fs::read_to_string(path).doing(|| format!("cannot read {}", path.display()))
+}
+
+/// Copies a folder with everything in it.
+pub(crate) fn copy_dir(from: &Path, to: &Path) -> Result<(), Error> {
+    create_dir(to)?;
+    let entries = fs::read_dir(from).doing(|| format!("cannot list {}", from.display()))?;
+    for entry in entries {
+        let entry = entry.doing(|| format!("cannot list {}", from.display()))?;
+        let (path, target) = (entry.path(), to.join(entry.file_name()));
+        if path.is_dir() {
+            copy_dir(&path, &target)?;
+        } else {
+            fs::copy(&path, &target).doing(|| format!("cannot copy {}", path.display()))?;
+        }
+    }
+    Ok(())
+}
+
+/// Waits for and takes an exclusive lock on `path`; it is released on drop, or when the process ends.
+pub(crate) fn lock(path: &Path) -> Result<File, Error> {
+    if let Some(parent) = path.parent() {
+        create_dir(parent)?;
+    }
+    let doing = || format!("cannot lock {}", path.display());
+    let file = File::options().create(true).append(true).open(path).doing(doing)?;
+    file.lock().doing(doing)?;
+    Ok(file)
+}
+
+/// FNV-1a over the parts, as 16 hexadecimal digits. Names folders: the same on every machine and in every version.
+pub(crate) fn hash<'a>(parts: impl IntoIterator<Item = &'a str>) -> String {
+    let mut state = 0xcbf2_9ce4_8422_2325_u64;
+    for part in parts {
+        // The zero byte keeps ["ab", "c"] and ["a", "bc"] apart.
+        for byte in part.bytes().chain([0]) {
+            state = (state ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+    format!("{state:016x}")
+}
+
+/// A TOML basic string, with its quotes.
+pub(crate) fn toml_string(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+/// The target directory that holds `out_dir`: cargo marks it with a `CACHEDIR.TAG`. Without one, `out_dir` itself.
+pub(crate) fn target_dir(out_dir: &Path) -> PathBuf {
+    out_dir
+        .ancestors()
+        .find(|dir| dir.join("CACHEDIR.TAG").is_file())
+        .unwrap_or(out_dir)
+        .to_path_buf()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hash_keeps_parts_apart() {
+        assert_ne!(hash(["ab", "c"]), hash(["a", "bc"]));
+        assert_eq!(hash(["a"]), hash(["a"]));
+    }
+
+    #[test]
+    fn toml_strings_are_escaped() {
+        assert_eq!(toml_string(r#"C:\a "b""#), r#""C:\\a \"b\"""#);
+    }
+}
