@@ -123,3 +123,28 @@ unsafe impl DeviceData for Traversable {
         self.to_raw().write_to(bytes);
     }
 }
+
+/// Data in which no view of device memory is hidden: what a field of parameters or records may be without `#[view]`.
+///
+/// Made by the derives that make [`DeviceData`], for structs without views.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be a plain field that crosses from host to device",
+    label = "neither plain data nor known to be a view",
+    note = "plain data are numbers, glam vectors, arrays of these, and your `#[repr(C)]` structs of these with `#[derive(Clone, Copy, DeviceData)]`",
+    note = "if the type holds `Slice`, `SliceMut`, `SliceMut2d` or `Traversable`, perhaps under another name, put `#[view]` on the field"
+)]
+pub trait Plain: DeviceData {
+    /// [`DeviceData::write_to`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn write_plain(&self, bytes: &mut [u8]) {
+        self.write_to(bytes);
+    }
+}
+
+macro_rules! plain {
+    ($($ty:ty),*) => {$(impl Plain for $ty {})*};
+}
+plain!(u8, i8, u16, i16, u32, i32, u64, i64, f32, f64, bool, ());
+plain!(Vec2, Vec3, Vec3A, Vec4, UVec2, UVec3, UVec4, IVec2, IVec3, IVec4, Quat, Mat3, Mat4, Affine3A);
+impl<T: Plain, const N: usize> Plain for [T; N] {}

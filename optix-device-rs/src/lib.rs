@@ -64,6 +64,8 @@ extern crate self as optix_device_rs;
 extern crate std;
 
 pub mod attributes;
+#[doc(hidden)]
+pub mod check;
 pub mod data;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod host;

@@ -76,7 +76,8 @@ pub trait PartOf: Part {
 /// The mask of `count` words that begin at word `at`. Used by the derive.
 #[doc(hidden)]
 pub const fn word_mask(at: usize, count: usize) -> u32 {
-    if count == 0 {
+    // A payload of more than 32 words is an error of its own; the mask must not be a second one.
+    if count == 0 || at + count > 32 {
         0
     } else {
         (u32::MAX >> (32 - count as u32)) << at as u32

@@ -8,7 +8,7 @@ use glam::Vec3;
 const U: f32 = 1.0 / 16_777_216.0;
 
 /// `n * u / (1 - n * u)`: the relative error of `n` roundings (Higham 2002, section 3.1), rounded up.
-const fn gamma(n: u32) -> f32 {
+pub const fn gamma(n: u32) -> f32 {
     let nu = n as f64 / 16_777_216.0;
     (nu / (1.0 - nu)) as f32 * (1.0 + 2.0 * U)
 }
@@ -70,17 +70,29 @@ impl SurfacePoint {
         let object = t0 + t1 + t2;
         let n = unit(e1.cross(e2));
 
-        let position = object_to_world.point(object);
-        let residual = n.dot(world_to_object.point(position) - object).abs();
-        let magnitude = absolute(world_to_object, position.abs());
-        let extent = e1.abs() + e2.abs();
-        let per_axis = (t0.abs() + t1.abs() + t2.abs()) * gamma(5)
-            + p0.abs() * (2.0 * U)
-            + magnitude * (2.0 * gamma(4) + 2.0 * U)
-            + extent * gamma(16);
-        let object_error = per_axis.dot(n.abs()) + residual;
+        let interpolation = (t0.abs() + t1.abs() + t2.abs()) * gamma(5) + p0.abs() * (2.0 * U);
+        let intersection = (e1.abs() + e2.abs()) * gamma(16);
+        Self::of_object(object, n, interpolation + intersection, object_to_world, world_to_object)
+    }
 
-        let world_normal = world_to_object.normal(n);
+    /// A point given in object space with unit normal `normal`: for custom primitives in instances.
+    ///
+    /// `error` bounds, per object-space axis, how far `point` is off the surface as the intersection program sees it (terms
+    /// 1 and 4 of the bound); the terms of the transforms are added here.
+    #[inline(always)]
+    pub fn of_object(
+        point: Vec3,
+        normal: Vec3,
+        error: Vec3,
+        object_to_world: &Transform,
+        world_to_object: &Transform,
+    ) -> Self {
+        let position = object_to_world.point(point);
+        let residual = normal.dot(world_to_object.point(position) - point).abs();
+        let mapping = absolute(world_to_object, position.abs()) * (2.0 * gamma(4) + 2.0 * U);
+        let object_error = (error + mapping).dot(normal.abs()) + residual;
+
+        let world_normal = world_to_object.normal(normal);
         let scale = world_normal.length();
         Self {
             position,

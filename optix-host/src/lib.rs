@@ -1,0 +1,43 @@
+//! What an application sees of an OptiX pipeline written in Rust: scenes, materials, pipelines, launches, on the GPU
+//! through NVIDIA's driver or on the CPU through an embedded executor with the same semantics.
+//!
+//! Data flows one way: a pipeline type (declared in a shader crate by `pipeline!`) and a [`Scene`] give a [`Pipeline`]
+//! specialised to both, which launches. Nothing is written twice: record layouts, SBT offsets, payload types, stack sizes
+//! and flags follow from the types and the scene.
+#![cfg_attr(docsrs, feature(doc_cfg))]
+#![warn(missing_docs)]
+
+mod backend;
+pub mod cpu;
+mod device;
+mod error;
+pub mod optix;
+pub mod pipeline;
+pub mod report;
+pub mod sbt;
+pub mod scene;
+
+pub use device::{BackendKind, Device, OptixOptions};
+pub use error::Error;
+pub use optix_device_rs::host::{Buffer, Buffer2d, MemoryError, World};
+pub use pipeline::{Launch, Pipeline, PipelineBuilder};
+pub use scene::{Aabb, Accel, Boxes, Geometry, Instance, Material, Scene, TriangleMesh};
+
+/// The PTX of a shader crate that the build script compiled with `optix_toolchain::shaders`; the crate is named as in
+/// Rust paths. Empty where no device compiler was found.
+///
+/// ```ignore
+/// let ptx = optix_host::ptx!(path_tracer_shaders);
+/// ```
+#[macro_export]
+macro_rules! ptx {
+    ($crate_name:ident) => {
+        ::core::include_str!(::core::env!(
+            ::core::concat!("OPTIX_PTX_", ::core::stringify!($crate_name)),
+            "this crate's build.rs does not call optix_toolchain::shaders for that shader crate"
+        ))
+    };
+}
+
+/// The result of host calls.
+pub type Result<T, E = Error> = core::result::Result<T, E>;

@@ -6,7 +6,9 @@ use std::path::PathBuf;
 pub(crate) fn sources(text: &str) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for line in text.lines() {
-        let Some((_, list)) = line.split_once(": ") else { continue };
+        let Some((_, list)) = line.split_once(": ") else {
+            continue;
+        };
         let mut name = String::new();
         let mut chars = list.chars().peekable();
         while let Some(c) = chars.next() {
@@ -29,7 +31,10 @@ mod tests {
     #[test]
     fn names_may_hold_spaces() {
         let files = sources("/t/a.a: /s/lib.rs /s/my\\ file.rs\n");
-        assert_eq!(files, [PathBuf::from("/s/lib.rs"), PathBuf::from("/s/my file.rs")]);
+        assert_eq!(
+            files,
+            [PathBuf::from("/s/lib.rs"), PathBuf::from("/s/my file.rs")]
+        );
         assert_eq!(sources("/t/a.a:\n"), [] as [PathBuf; 0]);
     }
 }

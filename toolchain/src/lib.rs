@@ -15,7 +15,8 @@
 //!
 //! The device compiler is any `rustc` with the sources of its standard library ([`DeviceCompiler::find`]);
 //! `cargo optix setup` installs one. Where none is found, the build goes on with one warning and an empty PTX file: the
-//! program runs on the CPU. A compile error in the shader crate does fail the build.
+//! program runs on the CPU. A compile error in the shader crate does fail the build. The environment variable
+//! `OPTIX_RUSTC` names the device compiler to use; `OPTIX_RUSTC=none` compiles nothing for the device.
 //!
 //! # How
 //!
@@ -46,7 +47,7 @@ mod sysroot;
 mod util;
 mod wrapper;
 
-pub use compiler::{Candidate, DeviceCompiler, MINIMUM, Rejected, Why, host_rustc, sources_of};
+pub use compiler::{Candidate, DeviceCompiler, MINIMUM, Rejected, Release, Why};
 pub use device_build::Built;
 pub use error::Error;
 pub use metadata::{Package, Workspace};
@@ -58,10 +59,8 @@ pub use options::{DEFAULT_ARCH, Shaders};
 /// cargo expects it and ends the process with exit code 1, because a build script can do nothing else.
 ///
 /// ```no_run
-/// // build.rs
-/// fn main() {
-///     optix_toolchain::shaders("shaders");
-/// }
+/// // In build.rs:
+/// optix_toolchain::shaders("shaders");
 /// ```
 pub fn shaders(path: impl AsRef<std::path::Path>) {
     Shaders::new(path).compile();

@@ -2,7 +2,7 @@
 //!
 //! `no_std` crates such as glam call the `libm` crate, whose `sqrtf` is some 80 integer instructions. The device
 //! build replaces that crate by one of the same version which compiles `sqrt`, `floor`, `fma` and the like to the
-//! machine's instructions, and takes every other function from the original.
+//! machine's instructions, does sine and cosine in `f32`, and takes every other function from the original.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,13 @@ use crate::util::{self, toml_string, write_if_changed};
 /// told apart in a lock file.
 pub(crate) const SOFTWARE: &str = "optix-libm-software";
 
-const FUNCTIONS: &str = include_str!("../templates/libm.rs");
+const SOURCES: [(&str, &str); 2] = [
+    ("src/lib.rs", include_str!("../templates/libm/lib.rs")),
+    (
+        "src/sin_cos.rs",
+        include_str!("../templates/libm/sin_cos.rs"),
+    ),
+];
 
 /// The replacement on disk.
 pub(crate) struct PatchedLibm {
@@ -28,17 +34,27 @@ impl PatchedLibm {
     /// Writes the replacement for the `libm` 0.2 among `packages` under `area`. `None`: nothing uses that.
     pub fn write(area: &Path, packages: &[Package]) -> Result<Option<Self>, Error> {
         let is_libm = |package: &&Package| {
-            let registry = package.source.as_deref().is_some_and(|source| source.starts_with("registry+"));
+            let registry = package
+                .source
+                .as_deref()
+                .is_some_and(|source| source.starts_with("registry+"));
             package.name == "libm" && package.version.starts_with("0.2.") && registry
         };
-        let Some(original) = packages.iter().find(is_libm) else { return Ok(None) };
+        let Some(original) = packages.iter().find(is_libm) else {
+            return Ok(None);
+        };
         let name = format!("libm-{}", original.version);
         let _lock = util::lock(&area.join(format!("{name}.lock")))?;
         let dir = area.join(name);
         copy_original(original, &dir.join("software"))?;
         write_if_changed(&dir.join("Cargo.toml"), &manifest(original))?;
-        write_if_changed(&dir.join("src/lib.rs"), FUNCTIONS)?;
-        Ok(Some(Self { dir, version: original.version.clone() }))
+        for (file, text) in SOURCES {
+            write_if_changed(&dir.join(file), text)?;
+        }
+        Ok(Some(Self {
+            dir,
+            version: original.version.clone(),
+        }))
     }
 }
 
@@ -58,6 +74,12 @@ fn copy_original(original: &Package, to: &Path) -> Result<(), Error> {
             write_if_changed(&to.join(part), &util::read(&source)?)?;
         }
     }
+    // Its warnings are for its authors; cargo silences them in registry packages only.
+    let root = to.join("src/lib.rs");
+    write_if_changed(
+        &root,
+        &format!("#![allow(warnings)]\n{}", util::read(&root)?),
+    )?;
     write_if_changed(&to.join("Cargo.toml"), &renamed)?;
     Ok(())
 }
@@ -77,8 +99,15 @@ fn manifest(original: &Package) -> String {
          [features]\n",
         original.version
     );
-    for feature in original.features.iter().filter(|feature| *feature != "default") {
-        text.push_str(&format!("{feature} = [{}]\n", toml_string(&format!("software/{feature}"))));
+    for feature in original
+        .features
+        .iter()
+        .filter(|feature| *feature != "default")
+    {
+        text.push_str(&format!(
+            "{feature} = [{}]\n",
+            toml_string(&format!("software/{feature}"))
+        ));
     }
     if original.features.iter().any(|feature| feature == "default") {
         text.push_str("default = [\"software/default\"]\n");

@@ -29,7 +29,11 @@ impl Package {
     fn from_json(json: &Json) -> Option<Self> {
         const LIBRARIES: [&str; 5] = ["lib", "rlib", "dylib", "staticlib", "cdylib"];
         let is_library = |target: &&Json| {
-            target.get("kind").items().iter().any(|kind| kind.str().is_some_and(|kind| LIBRARIES.contains(&kind)))
+            target
+                .get("kind")
+                .items()
+                .iter()
+                .any(|kind| kind.str().is_some_and(|kind| LIBRARIES.contains(&kind)))
         };
         let library = json.get("targets").items().iter().find(is_library);
         Some(Self {
@@ -37,9 +41,15 @@ impl Package {
             version: json.get("version").str()?.to_string(),
             manifest: json.get("manifest_path").str()?.into(),
             source: json.get("source").str().map(str::to_string),
-            library: library.and_then(|target| target.get("name").str()).map(|name| name.replace('-', "_")),
+            library: library
+                .and_then(|target| target.get("name").str())
+                .map(|name| name.replace('-', "_")),
             has_shaders: json.get("metadata").get("optix").get("shaders") == &Json::Bool(true),
-            features: json.get("features").members().map(|(name, _)| name.to_string()).collect(),
+            features: json
+                .get("features")
+                .members()
+                .map(|(name, _)| name.to_string())
+                .collect(),
         })
     }
 
@@ -73,15 +83,33 @@ impl Workspace {
 
     fn read(dir: &Path, args: &[&str]) -> Result<Self, Error> {
         let mut command = cargo::command(dir);
-        command.args(["metadata", "--quiet", "--format-version", "1"]).args(args);
-        let text = cargo::read(&mut command, &format!("reading the manifests in {}", dir.display()))?;
-        let bad = |reason: String| Error::Output { of: "cargo metadata".into(), reason };
+        command
+            .args(["metadata", "--quiet", "--format-version", "1"])
+            .args(args);
+        let text = cargo::read(
+            &mut command,
+            &format!("reading the manifests in {}", dir.display()),
+        )?;
+        let bad = |reason: String| Error::Output {
+            of: "cargo metadata".into(),
+            reason,
+        };
         let json = Json::parse(&text).map_err(bad)?;
-        let path = |name: &str| json.get(name).str().map(PathBuf::from).ok_or_else(|| bad(format!("no `{name}`")));
+        let path = |name: &str| {
+            json.get(name)
+                .str()
+                .map(PathBuf::from)
+                .ok_or_else(|| bad(format!("no `{name}`")))
+        };
         Ok(Self {
             root: path("workspace_root")?,
             target_dir: path("target_directory")?,
-            packages: json.get("packages").items().iter().filter_map(Package::from_json).collect(),
+            packages: json
+                .get("packages")
+                .items()
+                .iter()
+                .filter_map(Package::from_json)
+                .collect(),
         })
     }
 }

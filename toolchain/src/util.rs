@@ -48,7 +48,11 @@ pub(crate) fn lock(path: &Path) -> Result<File, Error> {
         create_dir(parent)?;
     }
     let doing = || format!("cannot lock {}", path.display());
-    let file = File::options().create(true).append(true).open(path).doing(doing)?;
+    let file = File::options()
+        .create(true)
+        .append(true)
+        .open(path)
+        .doing(doing)?;
     file.lock().doing(doing)?;
     Ok(file)
 }

@@ -82,11 +82,17 @@ impl MeshFormat {
     /// # Errors
     /// [`MeshError::Extension`] for any but `.obj`, `.gltf` and `.glb`.
     pub fn of(path: &Path) -> Result<Self, MeshError> {
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        let extension = path
+            .extension()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_ascii_lowercase();
         match extension.as_str() {
             "obj" => Ok(Self::Obj),
             "gltf" | "glb" => Ok(Self::Gltf),
-            _ => Err(MeshError::Extension { path: path.to_owned() }),
+            _ => Err(MeshError::Extension {
+                path: path.to_owned(),
+            }),
         }
     }
 }
@@ -100,7 +106,10 @@ struct Fault {
 
 impl Fault {
     fn new(place: impl Into<String>, why: impl Into<String>) -> Self {
-        Self { place: place.into(), why: why.into() }
+        Self {
+            place: place.into(),
+            why: why.into(),
+        }
     }
 }
 
@@ -124,16 +133,25 @@ pub fn load(path: &Path) -> Result<Mesh, MeshError> {
         why: fault.why,
     })?;
     if mesh.indices.is_empty() {
-        return Err(MeshError::Empty { path: path.to_owned() });
+        return Err(MeshError::Empty {
+            path: path.to_owned(),
+        });
     }
     normalize_normals(&mut mesh);
-    mesh.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    mesh.name = path
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
     Ok(mesh)
 }
 
 /// Reads a whole regular file. Anything else (a directory, a pipe, a device) might never end.
 fn read_file(path: &Path) -> Result<Vec<u8>, MeshError> {
-    let fail = |why: String| MeshError::Read { path: path.to_owned(), why };
+    let fail = |why: String| MeshError::Read {
+        path: path.to_owned(),
+        why,
+    };
     let metadata = fs::metadata(path).map_err(|e| fail(e.to_string()))?;
     if !metadata.is_file() {
         return Err(fail("it is not a regular file".into()));
@@ -146,7 +164,10 @@ fn append(mesh: &mut Mesh, part: Mesh, place: &str) -> Result<(), Fault> {
     let first = mesh.positions.len();
     let triangles = mesh.indices.len() + part.indices.len();
     if triangles > MAX_TRIANGLES || first + part.positions.len() > u32::MAX as usize {
-        return Err(Fault::new(place, format!("more than {MAX_TRIANGLES} triangles in all, OptiX's limit")));
+        return Err(Fault::new(
+            place,
+            format!("more than {MAX_TRIANGLES} triangles in all, OptiX's limit"),
+        ));
     }
     mesh.normals = match (mesh.normals.take(), part.normals) {
         (None, normals) if first == 0 => normals,
@@ -157,14 +178,17 @@ fn append(mesh: &mut Mesh, part: Mesh, place: &str) -> Result<(), Fault> {
         _ => None,
     };
     // The check above keeps every sum within u32.
-    mesh.indices.extend(part.indices.iter().map(|t| t.map(|i| i + first as u32)));
+    mesh.indices
+        .extend(part.indices.iter().map(|t| t.map(|i| i + first as u32)));
     mesh.positions.extend(part.positions);
     Ok(())
 }
 
 /// Gives every normal unit length. One that has no direction becomes that of a triangle at its vertex, or +z.
 fn normalize_normals(mesh: &mut Mesh) {
-    let Some(normals) = &mut mesh.normals else { return };
+    let Some(normals) = &mut mesh.normals else {
+        return;
+    };
     for normal in normals.iter_mut() {
         *normal = unit(normal.map(f64::from)).unwrap_or([0.0; 3]);
     }
@@ -186,7 +210,11 @@ fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
 }
 
 /// The unit vector along `v`; `None` where it has no finite direction. Scaling first keeps the squares in range.

@@ -108,7 +108,11 @@ impl Cx {
     }
     #[inline(always)]
     pub fn ray_tmax(&self) -> f32 {
-        self.frame().executor.ray_tmax(self.frame())
+        self.frame().ray.tmax
+    }
+    #[inline(always)]
+    pub fn interval_end(&self) -> f32 {
+        self.frame().executor.interval_end()
     }
     #[inline(always)]
     pub fn ray_time(&self) -> f32 {
@@ -144,12 +148,14 @@ impl Cx {
     }
     #[inline(always)]
     pub fn barycentrics(&self) -> Vec2 {
-        let [u, v, ..] = self.frame().hit.attributes.0;
+        let [u, v, ..] = self.frame().hit.attributes;
         Vec2::new(f32::from_bits(u), f32::from_bits(v))
     }
     #[inline(always)]
     pub fn attributes(&self, _count: usize) -> WordBuffer {
-        self.frame().hit.attributes
+        let mut words = WordBuffer::ZERO;
+        words.0[..8].copy_from_slice(&self.frame().hit.attributes);
+        words
     }
     #[inline(always)]
     pub fn triangle_vertices(&self) -> [Vec3; 3] {

@@ -326,9 +326,13 @@ impl Cx {
     pub fn ray_tmin(&self) -> f32 {
         get_f32!("_optix_get_ray_tmin")
     }
-    /// Changes while an intersection program reports, so it is not pure.
     #[inline(always)]
     pub fn ray_tmax(&self) -> f32 {
+        get_f32!("_optix_get_ray_tmax")
+    }
+    /// `ray_tmax` in an intersection program: changes while it reports, so it is not pure.
+    #[inline(always)]
+    pub fn interval_end(&self) -> f32 {
         let value: f32;
         // SAFETY: a query of the running program.
         unsafe {

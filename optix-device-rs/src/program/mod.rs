@@ -99,12 +99,6 @@ macro_rules! ray_queries {
             pub fn ray_tmin(&self) -> f32 {
                 self.cx.ray_tmin()
             }
-            /// Intersection and closest-hit: the nearest accepted `t` so far, else as passed to trace; any-hit: the
-            /// candidate's `t`; miss: as passed to trace.
-            #[inline(always)]
-            pub fn ray_tmax(&self) -> f32 {
-                self.cx.ray_tmax()
-            }
             /// Time, as passed to trace; 0 in a pipeline without motion.
             #[inline(always)]
             pub fn ray_time(&self) -> f32 {
@@ -124,6 +118,28 @@ macro_rules! ray_queries {
     )*};
 }
 ray_queries!(Intersection<P, A>, AnyHit<P, A>, ClosestHit<P, A>, Miss<P>);
+
+macro_rules! ray_tmax {
+    ($($(#[$doc:meta])* $name:ident<P $(, $a:ident)?> $call:ident;)*) => {$(
+        impl<P $(, $a)?> $name<P $(, $a)?> {
+            $(#[$doc])*
+            #[inline(always)]
+            pub fn ray_tmax(&self) -> f32 {
+                self.cx.$call()
+            }
+        }
+    )*};
+}
+ray_tmax! {
+    /// The nearest `t` accepted so far, else the `tmax` passed to trace; shrinks while this program reports.
+    Intersection<P, A> interval_end;
+    /// The candidate's `t`.
+    AnyHit<P, A> ray_tmax;
+    /// The hit's `t`.
+    ClosestHit<P, A> ray_tmax;
+    /// The `tmax` passed to trace.
+    Miss<P> ray_tmax;
+}
 
 impl<P, A: Attributes> Intersection<P, A> {
     /// Reports a hit at `t` (guide 13.4).

@@ -72,7 +72,10 @@ impl Moments {
     /// An empty accumulator for a picture of `pixels` pixels.
     #[must_use]
     pub fn new(pixels: usize) -> Self {
-        Self { pixels: vec![Pixel::default(); pixels], rejected: Rejected::default() }
+        Self {
+            pixels: vec![Pixel::default(); pixels],
+            rejected: Rejected::default(),
+        }
     }
 
     /// Takes in one pass of `samples` samples a pixel.
@@ -94,7 +97,12 @@ impl Moments {
         self.check_len("the film of squares", squares.len())?;
         for (pixel, (&sum, &square)) in sums.iter().zip(squares).enumerate() {
             let ([r, g, b, _], [r2, g2, b2, _]) = (sum.into(), square.into());
-            self.add(pixel, samples, [r, g, b].map(f64::from), [r2, g2, b2].map(f64::from));
+            self.add(
+                pixel,
+                samples,
+                [r, g, b].map(f64::from),
+                [r2, g2, b2].map(f64::from),
+            );
         }
         Ok(())
     }
@@ -102,7 +110,9 @@ impl Moments {
     /// Takes in `samples` samples of one pixel, by their sum and the sum of their squares, as
     /// [`add_pass`](Self::add_pass) does for all. A pixel outside the picture changes nothing.
     pub fn add(&mut self, pixel: usize, samples: u32, sum: [f64; 3], squares: [f64; 3]) {
-        let Some(into) = self.pixels.get_mut(pixel) else { return };
+        let Some(into) = self.pixels.get_mut(pixel) else {
+            return;
+        };
         if samples == 0 {
             return;
         }
@@ -121,7 +131,11 @@ impl Moments {
                 m2[c] = (squares[c] - sum[c] * mean[c]).max(0.0);
             }
         }
-        into.merge(&Pixel { count: u64::from(samples), mean, m2 });
+        into.merge(&Pixel {
+            count: u64::from(samples),
+            mean,
+            m2,
+        });
     }
 
     /// Takes in all that `other` has, as if its passes had been added here.
@@ -185,7 +199,10 @@ impl Moments {
     /// tell.
     #[must_use]
     pub fn mean_image(&self) -> Vec<[f32; 3]> {
-        self.pixels.iter().map(|p| p.mean.map(|m| m as f32)).collect()
+        self.pixels
+            .iter()
+            .map(|p| p.mean.map(|m| m as f32))
+            .collect()
     }
 
     pub(super) fn pixels(&self) -> &[Pixel] {
@@ -194,6 +211,14 @@ impl Moments {
 
     pub(super) fn check_len(&self, what: &'static str, got: usize) -> Result<(), ReportError> {
         let expected = self.pixels.len();
-        if got == expected { Ok(()) } else { Err(ReportError::PixelCount { what, expected, got }) }
+        if got == expected {
+            Ok(())
+        } else {
+            Err(ReportError::PixelCount {
+                what,
+                expected,
+                got,
+            })
+        }
     }
 }

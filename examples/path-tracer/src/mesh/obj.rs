@@ -9,8 +9,12 @@ use std::collections::HashMap;
 
 use super::{Fault, Mesh};
 
-const OPTIONS: tobj::LoadOptions =
-    tobj::LoadOptions { single_index: false, triangulate: true, ignore_points: true, ignore_lines: true };
+const OPTIONS: tobj::LoadOptions = tobj::LoadOptions {
+    single_index: false,
+    triangulate: true,
+    ignore_points: true,
+    ignore_lines: true,
+};
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Mesh, Fault> {
     // Names and comments may be in any encoding; the rest is ASCII.
@@ -22,7 +26,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Mesh, Fault> {
         .map_err(|e| whole(&e.to_string()))?;
     // Without `o` and `g` lines there is one model.
     let model = models.first().ok_or_else(|| whole("nothing was read"))?;
-    convert(&model.mesh, cleaned.all_have_normals).ok_or_else(|| whole("its indices are inconsistent"))
+    convert(&model.mesh, cleaned.all_have_normals)
+        .ok_or_else(|| whole("its indices are inconsistent"))
 }
 
 /// A backslash at the end of a line continues it. The joined line is followed by empty ones, so that lines keep their
@@ -64,7 +69,8 @@ fn clean(text: &str) -> Result<Cleaned, Fault> {
         let mut words = line.split_whitespace();
         match words.next() {
             Some("v") => {
-                let used = vertex(&words.collect::<Vec<_>>()).map_err(fault)?;
+                let words: Vec<&str> = words.collect();
+                let used = vertex(&words).map_err(fault)?;
                 counts[0] += 1;
                 out.push('v');
                 for word in used {
@@ -92,7 +98,9 @@ fn clean(text: &str) -> Result<Cleaned, Fault> {
                     size += 1;
                 }
                 if size < 3 {
-                    return Err(fault(format!("a face of {size} vertices, at least 3 are needed")));
+                    return Err(fault(format!(
+                        "a face of {size} vertices, at least 3 are needed"
+                    )));
                 }
                 corners += size;
             }
@@ -101,7 +109,10 @@ fn clean(text: &str) -> Result<Cleaned, Fault> {
         out.push_str(line);
         out.push('\n');
     }
-    Ok(Cleaned { text: out, all_have_normals: corners > 0 && with_normal == corners })
+    Ok(Cleaned {
+        text: out,
+        all_have_normals: corners > 0 && with_normal == corners,
+    })
 }
 
 /// `x y z`, then nothing, a weight, or a colour. Returns what makes the position.
@@ -112,21 +123,38 @@ fn vertex<'a, 'w>(words: &'w [&'a str]) -> Result<&'w [&'a str], String> {
         4 => {
             let [x, y, z, w] = values(4)?;
             let finite = [x, y, z].iter().all(|c| (c / w).is_finite());
-            if finite { Ok(words) } else { Err(format!("a vertex with the weight {w} is not finite")) }
+            if finite {
+                Ok(words)
+            } else {
+                Err(format!("a vertex with the weight {w} is not finite"))
+            }
         }
         n @ 0..3 => Err(format!("a vertex of {n} numbers, 3 are needed")),
-        n => Err(format!("a vertex of {n} numbers; 3, 4 (with a weight) or 6 (with a colour) are known")),
+        n => Err(format!(
+            "a vertex of {n} numbers; 3, 4 (with a weight) or 6 (with a colour) are known"
+        )),
     }
 }
 
 /// The first `n` (at most 4) words as finite numbers, the rest of the result being zero.
-fn numbers<'a>(mut words: impl Iterator<Item = &'a str>, n: usize, what: &str) -> Result<[f32; 4], String> {
-    let mut values = [0.0; 4];
+fn numbers<'a>(
+    mut words: impl Iterator<Item = &'a str>,
+    n: usize,
+    what: &str,
+) -> Result<[f32; 4], String> {
+    let mut values = [0.0_f32; 4];
     for value in values.iter_mut().take(n) {
-        let word = words.next().ok_or_else(|| format!("a {what} of fewer than {n} numbers"))?;
-        *value = word.parse().map_err(|_| format!("'{}' is not a number", shown(word)))?;
+        let word = words
+            .next()
+            .ok_or_else(|| format!("a {what} of fewer than {n} numbers"))?;
+        *value = word
+            .parse()
+            .map_err(|_| format!("'{}' is not a number", shown(word)))?;
         if !value.is_finite() {
-            return Err(format!("a {what} with the coordinate {} is not finite", shown(word)));
+            return Err(format!(
+                "a {what} with the coordinate {} is not finite",
+                shown(word)
+            ));
         }
     }
     Ok(values)
@@ -142,10 +170,14 @@ fn corner(word: &str, counts: [usize; 3]) -> Result<bool, String> {
         if part.is_empty() && slot > 0 {
             continue;
         }
-        let index: i64 = part.parse().map_err(|_| format!("'{}' is not an index", shown(word)))?;
+        let index: i64 = part
+            .parse()
+            .map_err(|_| format!("'{}' is not an index", shown(word)))?;
         let count = counts[slot];
         if index == 0 || index.unsigned_abs() > count as u64 {
-            return Err(format!("{name} {index} is asked for, {count} are defined above"));
+            return Err(format!(
+                "{name} {index} is asked for, {count} are defined above"
+            ));
         }
         given[slot] = true;
     }
@@ -154,22 +186,37 @@ fn corner(word: &str, counts: [usize; 3]) -> Result<bool, String> {
 
 /// A word fit for an error message of one line.
 fn shown(word: &str) -> String {
-    word.chars().take(40).flat_map(char::escape_default).collect()
+    word.chars()
+        .take(40)
+        .flat_map(char::escape_default)
+        .collect()
 }
 
 /// Makes one index a corner of the separate indices for positions and normals. `None` if they do not belong together.
 fn convert(from: &tobj::Mesh, with_normals: bool) -> Option<Mesh> {
-    let (positions, []) = from.positions.as_chunks::<3>() else { return None };
-    let (triangles, []) = from.indices.as_chunks::<3>() else { return None };
+    let (positions, []) = from.positions.as_chunks::<3>() else {
+        return None;
+    };
+    let (triangles, []) = from.indices.as_chunks::<3>() else {
+        return None;
+    };
     if from.indices.iter().any(|&i| i as usize >= positions.len()) {
         return None;
     }
     if !with_normals {
         let (positions, indices) = (positions.to_vec(), triangles.to_vec());
-        return Some(Mesh { positions, indices, ..Mesh::default() });
+        return Some(Mesh {
+            positions,
+            indices,
+            ..Mesh::default()
+        });
     }
-    let (normals, []) = from.normals.as_chunks::<3>() else { return None };
-    let (normal_triangles, []) = from.normal_indices.as_chunks::<3>() else { return None };
+    let (normals, []) = from.normals.as_chunks::<3>() else {
+        return None;
+    };
+    let (normal_triangles, []) = from.normal_indices.as_chunks::<3>() else {
+        return None;
+    };
     if normal_triangles.len() != triangles.len() {
         return None;
     }

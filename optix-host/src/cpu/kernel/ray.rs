@@ -163,7 +163,8 @@ impl Frame {
             }
         }
         let frame = Self { shear, boxes };
-        let depth_min = (f64::from(tmin) * frame.shear.major.abs() * (1.0 - DEPTH_SLACK)) as f32;
+        let t = (f64::from(tmin) - f64::from(f32::from_bits(1))).max(0.0);
+        let depth_min = (t * frame.shear.major.abs() * (1.0 - DEPTH_SLACK)) as f32;
         Some(Self { boxes: BoxRay { depth_min, ..frame.boxes }, ..frame })
     }
 

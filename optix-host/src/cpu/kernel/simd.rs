@@ -144,7 +144,7 @@ mod avx2 {
     #[inline]
     #[target_feature(enable = "avx2,bmi1")]
     fn load(lanes: &Lanes) -> __m256 {
-        bytemuck::must_cast(lanes.0)
+        bytemuck::cast(lanes.0)
     }
 
     #[inline]
@@ -163,7 +163,7 @@ mod avx2 {
             [0, 1, 2].map(|a| slab(node, ray.near_plane[a] ^ 1, ray.far_origin[a], ray.inverse[a]));
         let enter = _mm256_max_ps(_mm256_max_ps(nx, ny), _mm256_max_ps(nz, _mm256_set1_ps(ray.depth_min)));
         let leave = _mm256_min_ps(_mm256_min_ps(fx, fy), _mm256_min_ps(fz, _mm256_set1_ps(depth_max)));
-        near.0 = bytemuck::must_cast(enter);
+        near.0 = bytemuck::cast(enter);
         _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, leave)) as u32
     }
 

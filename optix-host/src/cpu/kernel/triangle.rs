@@ -58,7 +58,7 @@ impl Block {
 /// Where a ray meets a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangleHit {
-    /// Finite; not compared with the ray's interval.
+    /// Finite and not negative; not compared with the ray's interval.
     pub t: f32,
     /// Weights of the second and third corner, in `[0, 1]`.
     pub u: f32,
@@ -84,8 +84,8 @@ pub fn edge(from: [f32; 3], to: [f32; 3]) -> f64 {
     f64::from(from[0]) * f64::from(to[1]) - f64::from(from[1]) * f64::from(to[0])
 }
 
-/// The exact test of one triangle. `None` for a miss, for a triangle without area as seen along the ray, and where
-/// coordinate differences overflow. Never gives NaN.
+/// The exact test of one triangle. `None` for a miss, for a hit behind the origin, for a triangle without area as seen
+/// along the ray, and where coordinate differences overflow. Never gives NaN.
 #[inline]
 pub fn hit(ray: &ShearRay, triangle: [[f32; 3]; 3]) -> Option<TriangleHit> {
     let [a, b, c] = triangle.map(|corner| shear(ray, corner));
@@ -100,7 +100,8 @@ pub fn hit(ray: &ShearRay, triangle: [[f32; 3]; 3]) -> Option<TriangleHit> {
     }
     let [u, v, w] = [u, v, w].map(|x| x / determinant);
     let depth = u * f64::from(a[2]) + v * f64::from(b[2]) + w * f64::from(c[2]);
-    // `+ 0.0` turns -0 into 0.
-    let t = (depth / ray.major) as f32 + 0.0;
-    t.is_finite().then_some(TriangleHit { t, u: v as f32, v: w as f32, front: determinant > 0.0 })
+    let t = depth / ray.major;
+    // Before rounding, which could make 0 of a hit behind the origin. `+ 0.0` turns -0 into 0.
+    let (behind, t) = (t < 0.0, t as f32 + 0.0);
+    (!behind && t.is_finite()).then_some(TriangleHit { t, u: v as f32, v: w as f32, front: determinant > 0.0 })
 }

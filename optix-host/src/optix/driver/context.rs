@@ -7,9 +7,11 @@ use std::sync::Arc;
 use cudarc::driver::result::{self, DriverError};
 use cudarc::driver::sys as cu;
 
+use super::compile_log::CompileLog;
 use super::cuda::{self, Current, DeviceInfo};
 use super::error::{Error, OptixFailure};
 use super::library::{self, Api};
+use super::limits::Limits;
 use super::log::{self, LogLevel, LogMessage, LogSink};
 use super::sys::{self, FunctionTable, OptixDeviceProperty, OptixResult};
 
@@ -36,33 +38,6 @@ pub enum DiskCache {
     Off,
     /// On, in this folder, which is created if it is missing. A network share is undefined behaviour (A039).
     At(PathBuf),
-}
-
-/// Limits and features of a context (guide §12). They depend on the GPU and on the ABI version, not on driver updates.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Limits {
-    /// The greatest depth of recursive traces.
-    pub max_trace_depth: u32,
-    /// The greatest number of traversables on a path from the root to a leaf.
-    pub max_graph_depth: u32,
-    /// The greatest number of primitives, summed over build inputs and times motion keys.
-    pub max_primitives_per_gas: u32,
-    /// The greatest number of instances in one instance acceleration structure.
-    pub max_instances_per_ias: u32,
-    /// The greatest instance id.
-    pub max_instance_id: u32,
-    /// Bits of a visibility mask.
-    pub visibility_mask_bits: u32,
-    /// The greatest number of records that one geometry acceleration structure refers to.
-    pub max_sbt_records_per_gas: u32,
-    /// The greatest record offset of an instance, and of the sum along a path.
-    pub max_sbt_offset: u32,
-    /// Version of the ray-tracing cores times 10, 0 without any.
-    pub rt_core_version: u32,
-    /// Whether shader execution reordering reorders. `false` on ABI versions before 87, which cannot tell.
-    pub reordering: bool,
-    /// Whether cluster acceleration structures can be built. `false` on ABI versions before 105.
-    pub clusters: bool,
 }
 
 /// A GPU ready for OptiX. Cheap to clone; the objects made from it keep it alive.
@@ -110,7 +85,11 @@ impl Context {
         let info = cuda::describe(options.ordinal)?;
         let api = library::api()?;
         // SAFETY: `device` was returned by cuDeviceGet.
-        let cuda = cuda::check("cuDevicePrimaryCtxRetain", unsafe { result::primary_ctx::retain(device) }, Vec::new)?;
+        let cuda = cuda::check(
+            "cuDevicePrimaryCtxRetain",
+            unsafe { result::primary_ctx::retain(device) },
+            Vec::new,
+        )?;
         // From here on dropping `inner` releases what was made so far.
         let mut inner = Inner {
             api,
@@ -129,7 +108,7 @@ impl Context {
             inner.stream = inner.cuda("cuStreamCreate", result::stream::create(kind))?;
             inner.raw = inner.create(options)?;
             inner.apply_cache(&options.cache)?;
-            inner.limits = inner.query_limits()?;
+            inner.limits = Limits::query(api.abi.version, |property| inner.property(property))?;
         }
         Ok(Self(Arc::new(inner)))
     }
@@ -163,7 +142,10 @@ impl Context {
     pub fn cache_enabled(&self) -> Result<bool, Error> {
         let mut enabled = 0;
         // SAFETY: the context is live and `enabled` is valid for a write.
-        let result = unsafe { self.table().device_context_get_cache_enabled(self.0.raw, &mut enabled) };
+        let result = unsafe {
+            self.table()
+                .device_context_get_cache_enabled(self.0.raw, &mut enabled)
+        };
         self.check("optixDeviceContextGetCacheEnabled", result)?;
         Ok(enabled != 0)
     }
@@ -185,7 +167,9 @@ impl Context {
     pub fn synchronize(&self) -> Result<(), Error> {
         let _current = self.enter()?;
         // SAFETY: the stream is live and its context is current.
-        self.cuda("cuStreamSynchronize", unsafe { result::stream::synchronize(self.0.stream) })
+        self.cuda("cuStreamSynchronize", unsafe {
+            result::stream::synchronize(self.0.stream)
+        })
     }
 
     /// Whether both are the same context, so that objects of one may be used with the other.
@@ -215,7 +199,11 @@ impl Context {
         self.0.enter()
     }
 
-    pub(super) fn cuda<T>(&self, call: &'static str, result: Result<T, DriverError>) -> Result<T, Error> {
+    pub(super) fn cuda<T>(
+        &self,
+        call: &'static str,
+        result: Result<T, DriverError>,
+    ) -> Result<T, Error> {
         self.0.cuda(call, result)
     }
 
@@ -223,7 +211,12 @@ impl Context {
         self.0.check(call, result, String::new)
     }
 
-    pub(super) fn check_compile(&self, call: &'static str, result: OptixResult, log: &CompileLog) -> Result<(), Error> {
+    pub(super) fn check_compile(
+        &self,
+        call: &'static str,
+        result: OptixResult,
+        log: &CompileLog,
+    ) -> Result<(), Error> {
         self.0.check(call, result, || log.text())
     }
 
@@ -233,7 +226,11 @@ impl Context {
             return Ok(());
         }
         let problem = "the objects belong to different contexts";
-        Err(Error::invalid(what, problem, "make all objects of a pipeline from one context (guide §1)"))
+        Err(Error::invalid(
+            what,
+            problem,
+            "make all objects of a pipeline from one context (guide §1)",
+        ))
     }
 }
 
@@ -247,11 +244,18 @@ impl Inner {
         cuda::check(call, result, || self.log.take_unreported())
     }
 
-    fn check(&self, call: &'static str, result: OptixResult, log: impl FnOnce() -> String) -> Result<(), Error> {
+    fn check(
+        &self,
+        call: &'static str,
+        result: OptixResult,
+        log: impl FnOnce() -> String,
+    ) -> Result<(), Error> {
         if result == OptixResult::SUCCESS {
             return Ok(());
         }
-        let text = |text: Option<&std::ffi::CStr>| text.map_or_else(String::new, |t| t.to_string_lossy().into_owned());
+        let text = |text: Option<&std::ffi::CStr>| {
+            text.map_or_else(String::new, |t| t.to_string_lossy().into_owned())
+        };
         Err(Error::Optix(Box::new(OptixFailure {
             call,
             name: text(self.api.table.get_error_name(result)),
@@ -276,9 +280,24 @@ impl Inner {
         let mut raw = sys::OptixDeviceContext::NULL;
         // SAFETY: the CUDA context is live, the pointers are to locals of the right type, and `self` keeps the log sink
         // alive until after the OptiX context is destroyed.
-        let result = unsafe { self.api.table.device_context_create(self.cuda, &raw_options, &mut raw) };
+        let result = unsafe {
+            self.api
+                .table
+                .device_context_create(self.cuda, &raw_options, &mut raw)
+        };
         self.check("optixDeviceContextCreate", result, String::new)?;
         Ok(raw)
+    }
+
+    fn property(&self, property: OptixDeviceProperty) -> Result<u32, Error> {
+        let mut value = 0u32;
+        // SAFETY: the context is live; every property is a 32-bit integer, and that is the size passed.
+        let result = unsafe {
+            let (table, value) = (&self.api.table, (&raw mut value).cast());
+            table.device_context_get_property(self.raw, property, value, size_of::<u32>())
+        };
+        self.check("optixDeviceContextGetProperty", result, String::new)?;
+        Ok(value)
     }
 
     fn apply_cache(&self, cache: &DiskCache) -> Result<(), Error> {
@@ -286,49 +305,28 @@ impl Inner {
             DiskCache::Default => Ok(()),
             DiskCache::Off => {
                 // SAFETY: the context is live.
-                let result = unsafe { self.api.table.device_context_set_cache_enabled(self.raw, 0) };
+                let result =
+                    unsafe { self.api.table.device_context_set_cache_enabled(self.raw, 0) };
                 self.check("optixDeviceContextSetCacheEnabled", result, String::new)
             }
             DiskCache::At(path) => {
                 let remedy = "give a folder on a local disk whose name has no NUL character";
                 let Ok(text) = CString::new(path.as_os_str().as_encoded_bytes()) else {
-                    return Err(Error::invalid("the cache folder", format!("{} has a NUL in it", path.display()), remedy));
+                    return Err(Error::invalid(
+                        "the cache folder",
+                        format!("{} has a NUL in it", path.display()),
+                        remedy,
+                    ));
                 };
                 // SAFETY: the context is live and `text` ends in NUL.
-                let result = unsafe { self.api.table.device_context_set_cache_location(self.raw, text.as_ptr()) };
+                let result = unsafe {
+                    self.api
+                        .table
+                        .device_context_set_cache_location(self.raw, text.as_ptr())
+                };
                 self.check("optixDeviceContextSetCacheLocation", result, String::new)
             }
         }
-    }
-
-    fn query_limits(&self) -> Result<Limits, Error> {
-        use OptixDeviceProperty as P;
-        let get = |property: P| {
-            let mut value = 0u32;
-            // SAFETY: the context is live; every property listed is a 32-bit integer, and that is the size passed.
-            let result = unsafe {
-                let value = (&raw mut value).cast();
-                self.api.table.device_context_get_property(self.raw, property, value, size_of::<u32>())
-            };
-            self.check("optixDeviceContextGetProperty", result, String::new).map(|()| value)
-        };
-        // An older ABI refuses properties it does not know.
-        let since = |abi: i32, property: P| {
-            if self.api.abi.version >= abi { get(property).map(|value| value != 0) } else { Ok(false) }
-        };
-        Ok(Limits {
-            max_trace_depth: get(P::LIMIT_MAX_TRACE_DEPTH)?,
-            max_graph_depth: get(P::LIMIT_MAX_TRAVERSABLE_GRAPH_DEPTH)?,
-            max_primitives_per_gas: get(P::LIMIT_MAX_PRIMITIVES_PER_GAS)?,
-            max_instances_per_ias: get(P::LIMIT_MAX_INSTANCES_PER_IAS)?,
-            max_instance_id: get(P::LIMIT_MAX_INSTANCE_ID)?,
-            visibility_mask_bits: get(P::LIMIT_NUM_BITS_INSTANCE_VISIBILITY_MASK)?,
-            max_sbt_records_per_gas: get(P::LIMIT_MAX_SBT_RECORDS_PER_GAS)?,
-            max_sbt_offset: get(P::LIMIT_MAX_SBT_OFFSET)?,
-            rt_core_version: get(P::RTCORE_VERSION)?,
-            reordering: since(87, P::SHADER_EXECUTION_REORDERING)?,
-            clusters: since(105, P::CLUSTER_ACCEL)?,
-        })
     }
 }
 
@@ -354,45 +352,27 @@ impl Drop for Inner {
     }
 }
 
-/// A buffer for the text of a compiling call. The driver writes what fits, and its full length (C023).
-pub(super) struct CompileLog {
-    buffer: Vec<u8>,
-    size: usize,
-}
-
-impl CompileLog {
-    /// Enough for the compile feedback of a large module at log level 4.
-    const SIZE: usize = 64 << 10;
-
-    pub(super) fn new() -> Self {
-        Self { buffer: vec![0; Self::SIZE], size: Self::SIZE }
-    }
-
-    /// The buffer and its in-out size, valid until the next use of `self`.
-    pub(super) fn parts(&mut self) -> (*mut std::ffi::c_char, *mut usize) {
-        (self.buffer.as_mut_ptr().cast(), &raw mut self.size)
-    }
-
-    pub(super) fn text(&self) -> String {
-        let end = self.buffer.iter().position(|&byte| byte == 0).unwrap_or(self.buffer.len());
-        let mut text = String::from_utf8_lossy(&self.buffer[..end]).trim_end().to_owned();
-        if self.size > self.buffer.len() {
-            text.push_str(&format!("\n[{} bytes of {} shown]", end, self.size));
-        }
-        text
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_context_is_made_or_the_missing_driver_is_named() {
-        match Context::new(&ContextOptions { validation: true, ..Default::default() }) {
+        match Context::new(&ContextOptions {
+            validation: true,
+            ..Default::default()
+        }) {
             Ok(context) => assert!(context.limits().max_trace_depth > 0),
             Err(Error::LibraryNotFound { library, .. }) => {
-                assert!(["libcuda.so.1", "libnvoptix.so.1", "nvcuda.dll", "nvoptix.dll"].contains(&library));
+                assert!(
+                    [
+                        "libcuda.so.1",
+                        "libnvoptix.so.1",
+                        "nvcuda.dll",
+                        "nvoptix.dll"
+                    ]
+                    .contains(&library)
+                );
             }
             Err(error) => assert!(error.to_string().contains("what to do"), "{error}"),
         }
@@ -400,23 +380,11 @@ mod tests {
 
     #[test]
     fn an_absurd_ordinal_is_an_error() {
-        let error = Context::new(&ContextOptions { ordinal: usize::MAX, ..Default::default() }).unwrap_err();
+        let error = Context::new(&ContextOptions {
+            ordinal: usize::MAX,
+            ..Default::default()
+        })
+        .unwrap_err();
         assert!(error.to_string().contains("what to do"), "{error}");
-    }
-
-    #[test]
-    fn a_truncated_compile_log_says_so() {
-        let mut log = CompileLog::new();
-        log.buffer.fill(b'x');
-        log.size = CompileLog::SIZE + 5;
-        assert!(log.text().ends_with(&format!("[{0} bytes of {1} shown]", CompileLog::SIZE, CompileLog::SIZE + 5)));
-        let mut log = CompileLog::new();
-        let (buffer, size) = log.parts();
-        // SAFETY: the buffer is longer than this and `size` is valid for a write.
-        unsafe {
-            std::ptr::copy_nonoverlapping(c"warning\n".as_ptr(), buffer, 9);
-            size.write(9);
-        }
-        assert_eq!(log.text(), "warning");
     }
 }

@@ -6,9 +6,14 @@ use cudarc::driver::result::{self, DriverError};
 use cudarc::driver::sys as cu;
 
 use super::error::{CudaFailure, Error};
+use super::library;
 use super::log::LogMessage;
 
-const LIBRARY: &str = if cfg!(windows) { "nvcuda.dll" } else { "libcuda.so.1" };
+const LIBRARY: &str = if cfg!(windows) {
+    "nvcuda.dll"
+} else {
+    "libcuda.so.1"
+};
 
 /// A GPU as CUDA describes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,7 +39,11 @@ pub struct DeviceInfo {
 pub fn devices() -> Result<Vec<DeviceInfo>, Error> {
     if let Err(error) = init() {
         // CUDA_ERROR_NO_DEVICE is how the driver says that the list is empty.
-        return if error.code() == Some(100) { Ok(Vec::new()) } else { Err(error) };
+        return if error.code() == Some(100) {
+            Ok(Vec::new())
+        } else {
+            Err(error)
+        };
     }
     (0..count()?).map(describe).collect()
 }
@@ -52,14 +61,16 @@ pub(super) fn init() -> Result<(), Error> {
 /// cudarc panics when it cannot find the library, so this has to come before any of its calls.
 fn find_library() -> Result<(), Error> {
     // SAFETY: loading the NVIDIA driver's library runs its initialisers, which need nothing from us.
-    let Err(detail) = (unsafe { libloading::Library::new(LIBRARY) }) else { return Ok(()) };
+    let Err(detail) = (unsafe { libloading::Library::new(LIBRARY) }) else {
+        return Ok(());
+    };
     // SAFETY: as above, for the other names that cudarc looks for.
     if unsafe { cu::is_culib_present() } {
         return Ok(());
     }
     Err(Error::LibraryNotFound {
         library: LIBRARY,
-        detail: detail.to_string(),
+        detail: library::chain(&detail),
         remedy: "this file comes with the NVIDIA driver: install it, or start the container with --gpus; without a GPU \
                  use the CPU executor",
     })
@@ -90,17 +101,23 @@ pub(super) fn describe(ordinal: usize) -> Result<DeviceInfo, Error> {
     };
     let mut version = 0;
     // SAFETY: `version` is valid for a write.
-    check("cuDriverGetVersion", unsafe { cu::cuDriverGetVersion(&mut version) }.result(), Vec::new)?;
+    let result = unsafe { cu::cuDriverGetVersion(&mut version) }.result();
+    check("cuDriverGetVersion", result, Vec::new)?;
     let version = version.unsigned_abs();
+    // SAFETY: `device` was returned by cuDeviceGet.
+    let memory = unsafe { result::device::total_mem(device) };
     Ok(DeviceInfo {
         ordinal,
-        name: check("cuDeviceGetName", result::device::get_name(device), Vec::new)?,
+        name: check(
+            "cuDeviceGetName",
+            result::device::get_name(device),
+            Vec::new,
+        )?,
         compute_capability: (
             attribute(Attribute::CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR)?,
             attribute(Attribute::CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR)?,
         ),
-        // SAFETY: `device` was returned by cuDeviceGet.
-        memory_bytes: check("cuDeviceTotalMem", unsafe { result::device::total_mem(device) }, Vec::new)?,
+        memory_bytes: check("cuDeviceTotalMem", memory, Vec::new)?,
         // 13000 is 13.0, 12080 is 12.8.
         cuda_version: (version / 1000, version % 1000 / 10),
         driver_version: display_driver_version(),
@@ -115,7 +132,10 @@ pub(super) fn display_driver_version() -> Option<String> {
 /// The first word made of two or more numbers with dots between.
 fn parse_driver_version(text: &str) -> Option<String> {
     let is_version = |word: &&str| {
-        word.contains('.') && word.split('.').all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()))
+        word.contains('.')
+            && word
+                .split('.')
+                .all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()))
     };
     text.split_whitespace().find(is_version).map(str::to_owned)
 }
@@ -128,7 +148,10 @@ pub(super) fn check<T>(
 ) -> Result<T, Error> {
     result.map_err(|error| {
         let text = |text: Result<&std::ffi::CStr, DriverError>| {
-            text.map_or_else(|_| "unknown".to_owned(), |text| text.to_string_lossy().into_owned())
+            text.map_or_else(
+                |_| "unknown".to_owned(),
+                |text| text.to_string_lossy().into_owned(),
+            )
         };
         Error::Cuda(Box::new(CudaFailure {
             call,
@@ -152,7 +175,9 @@ impl Current {
     pub(super) unsafe fn push(context: cu::CUcontext) -> Result<Self, DriverError> {
         // SAFETY: the caller promises that the context is live.
         unsafe { cu::cuCtxPushCurrent_v2(context) }.result()?;
-        Ok(Self { _not_send: std::marker::PhantomData })
+        Ok(Self {
+            _not_send: std::marker::PhantomData,
+        })
     }
 }
 
@@ -181,7 +206,12 @@ mod tests {
     #[test]
     fn without_a_driver_the_error_names_the_file() {
         match devices() {
-            Ok(devices) => assert!(devices.iter().enumerate().all(|(i, device)| device.ordinal == i)),
+            Ok(devices) => assert!(
+                devices
+                    .iter()
+                    .enumerate()
+                    .all(|(i, device)| device.ordinal == i)
+            ),
             Err(Error::LibraryNotFound { library, .. }) => assert_eq!(library, LIBRARY),
             Err(error) => assert!(matches!(error, Error::Cuda(_)), "{error}"),
         }

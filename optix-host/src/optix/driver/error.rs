@@ -37,7 +37,9 @@ pub enum Error {
     },
 
     /// There is no such GPU.
-    #[error("GPU {ordinal} was asked for, but CUDA sees {count}\n  what to do: check CUDA_VISIBLE_DEVICES and nvidia-smi")]
+    #[error(
+        "GPU {ordinal} was asked for, but CUDA sees {count}\n  what to do: check CUDA_VISIBLE_DEVICES and nvidia-smi"
+    )]
     NoDevice {
         /// The GPU asked for, counted from 0.
         ordinal: usize,
@@ -66,8 +68,16 @@ pub enum Error {
 }
 
 impl Error {
-    pub(super) fn invalid(what: &'static str, problem: impl Into<String>, remedy: &'static str) -> Self {
-        Self::Invalid { what, problem: problem.into(), remedy }
+    pub(super) fn invalid(
+        what: &'static str,
+        problem: impl Into<String>,
+        remedy: &'static str,
+    ) -> Self {
+        Self::Invalid {
+            what,
+            problem: problem.into(),
+            remedy,
+        }
     }
 
     /// The OptiX or CUDA result code, where a driver call failed.
@@ -109,7 +119,11 @@ impl std::error::Error for OptixFailure {}
 
 impl fmt::Display for OptixFailure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} returned {} ({}): {}", self.call, self.name, self.code, self.text)?;
+        write!(
+            f,
+            "{} returned {} ({}): {}",
+            self.call, self.name, self.code, self.text
+        )?;
         write!(f, "\n  what to do: {}", self.remedy())?;
         if !self.log.is_empty() {
             write!(f, "\n  compile log:\n{}", self.log.trim_end())?;
@@ -147,7 +161,11 @@ impl std::error::Error for CudaFailure {}
 
 impl fmt::Display for CudaFailure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} returned {} ({}): {}", self.call, self.name, self.code, self.text)?;
+        write!(
+            f,
+            "{} returned {} ({}): {}",
+            self.call, self.name, self.code, self.text
+        )?;
         write!(f, "\n  what to do: {}", self.remedy())?;
         for message in &self.messages {
             write!(f, "\n  OptiX log: {message}")?;
@@ -161,7 +179,9 @@ fn optix_remedy(result: OptixResult) -> &'static str {
         OptixResult::INVALID_VALUE => {
             "an argument is out of its range; the driver log names it when the context has validation switched on"
         }
-        OptixResult::HOST_OUT_OF_MEMORY => "free host memory; compiling large modules needs the most",
+        OptixResult::HOST_OUT_OF_MEMORY => {
+            "free host memory; compiling large modules needs the most"
+        }
         OptixResult::DEVICE_OUT_OF_MEMORY => {
             "free GPU memory: compact acceleration structures, build them one after another, lower the stack sizes"
         }
@@ -182,7 +202,9 @@ fn optix_remedy(result: OptixResult) -> &'static str {
             "an object of another context, or one already destroyed, was passed"
         }
         OptixResult::CUDA_NOT_INITIALIZED => "no CUDA context is current on this thread",
-        OptixResult::VALIDATION_FAILURE => "validation mode caught an error in a program; the driver log says which",
+        OptixResult::VALIDATION_FAILURE => {
+            "validation mode caught an error in a program; the driver log says which"
+        }
         OptixResult::INVALID_INPUT | OptixResult::INVALID_FILE_FORMAT => {
             "the module is not PTX that this driver reads: the log gives the line; PTX of a newer .version or a newer \
              .target than the driver or GPU knows is refused too"
@@ -193,7 +215,9 @@ fn optix_remedy(result: OptixResult) -> &'static str {
         OptixResult::INVALID_PAYLOAD_ACCESS => {
             "a program reads or writes a payload word that its semantics or the payload's size do not allow"
         }
-        OptixResult::INVALID_ATTRIBUTE_ACCESS => "a program uses more attribute words than the pipeline options reserve",
+        OptixResult::INVALID_ATTRIBUTE_ACCESS => {
+            "a program uses more attribute words than the pipeline options reserve"
+        }
         OptixResult::INVALID_FUNCTION_USE => {
             "a program calls a device function that its kind may not call (guide §13), or recurses with device calls"
         }
@@ -209,7 +233,9 @@ fn optix_remedy(result: OptixResult) -> &'static str {
         OptixResult::INTERNAL_COMPILER_ERROR | OptixResult::INTERNAL_ERROR => {
             "an error inside the driver: try another driver version, optimisation level 0, or smaller programs, and report it"
         }
-        OptixResult::NOT_COMPATIBLE => "the acceleration structure was made for another kind of GPU or driver",
+        OptixResult::NOT_COMPATIBLE => {
+            "the acceleration structure was made for another kind of GPU or driver"
+        }
         OptixResult::PAYLOAD_TYPE_MISMATCH
         | OptixResult::PAYLOAD_TYPE_RESOLUTION_FAILED
         | OptixResult::PAYLOAD_TYPE_ID_INVALID => {
@@ -240,16 +266,26 @@ fn cuda_remedy(code: i32) -> &'static str {
         2 => "free GPU memory, or choose a GPU with more",
         3 | 4 => "CUDA is not initialised in this process, or is shutting down",
         34 => "a stub libcuda.so is first on the library path: put the driver's own before it",
-        35 | 803 => "the driver is too old for the CUDA version in use, or its parts are of different versions: update it",
-        46 | 802 => "the GPU is in use or not ready yet: check nvidia-smi, compute mode and the fabric manager",
-        100 | 101 => "no usable GPU: check nvidia-smi, CUDA_VISIBLE_DEVICES and the container's --gpus",
+        35 | 803 => {
+            "the driver is too old for the CUDA version in use, or its parts are of different versions: update it"
+        }
+        46 | 802 => {
+            "the GPU is in use or not ready yet: check nvidia-smi, compute mode and the fabric manager"
+        }
+        100 | 101 => {
+            "no usable GPU: check nvidia-smi, CUDA_VISIBLE_DEVICES and the container's --gpus"
+        }
         201 | 709 => "the CUDA context is gone; the process has to start again",
         214 | 700 | 714 | 715 | 716 | 717 | 718 | 719 => {
             "a launch used a bad address or instruction: check the addresses in parameters and records, try validation \
              mode; the CUDA context is lost and the process has to start again"
         }
-        702 => "a launch ran longer than the display watchdog allows: launch fewer indices at a time",
-        999 => "the kernel driver does not answer: check dmesg and nvidia-smi; after a driver update restart the machine",
+        702 => {
+            "a launch ran longer than the display watchdog allows: launch fewer indices at a time"
+        }
+        999 => {
+            "the kernel driver does not answer: check dmesg and nvidia-smi; after a driver update restart the machine"
+        }
         _ => "see the CUDA driver API reference for this code",
     }
 }
@@ -266,18 +302,35 @@ mod tests {
             code: 7200,
             text: "Invalid input".into(),
             log: "COMPILE ERROR: line 3\n".into(),
-            messages: vec![LogMessage { level: 2, tag: "COMPILER".into(), text: "bad".into() }],
+            messages: vec![LogMessage {
+                level: 2,
+                tag: "COMPILER".into(),
+                text: "bad".into(),
+            }],
         };
         let text = Error::Optix(Box::new(failure)).to_string();
-        for part in ["optixModuleCreate", "7200", "what to do", "line 3", "[COMPILER] bad"] {
+        for part in [
+            "optixModuleCreate",
+            "7200",
+            "what to do",
+            "line 3",
+            "[COMPILER] bad",
+        ] {
             assert!(text.contains(part), "{part} is missing in: {text}");
         }
     }
 
     #[test]
     fn every_listed_result_has_a_remedy_of_its_own() {
-        for code in [7001, 7050, 7200, 7201, 7202, 7204, 7250, 7251, 7299, 7500, 7801, 7804, 7807, 7900, 7990] {
-            assert_ne!(optix_remedy(OptixResult(code)), optix_remedy(OptixResult::UNKNOWN), "{code}");
+        for code in [
+            7001, 7050, 7200, 7201, 7202, 7204, 7250, 7251, 7299, 7500, 7801, 7804, 7807, 7900,
+            7990,
+        ] {
+            assert_ne!(
+                optix_remedy(OptixResult(code)),
+                optix_remedy(OptixResult::UNKNOWN),
+                "{code}"
+            );
         }
     }
 }

@@ -8,7 +8,11 @@ use super::cuda;
 use super::error::Error;
 use super::sys::{self, Abi, FunctionTable, QueryFunctionTable};
 
-const LIBRARY: &str = if cfg!(windows) { "nvoptix.dll" } else { "libnvoptix.so.1" };
+const LIBRARY: &str = if cfg!(windows) {
+    "nvoptix.dll"
+} else {
+    "libnvoptix.so.1"
+};
 
 /// The driver's functions and the ABI version they follow.
 #[derive(Clone, Copy)]
@@ -31,7 +35,7 @@ pub(super) fn api() -> Result<&'static Api, Error> {
 fn load(library: &'static str) -> Result<Api, Error> {
     let not_found = |detail: libloading::Error| Error::LibraryNotFound {
         library,
-        detail: detail.to_string(),
+        detail: chain(&detail),
         remedy: "this file comes with the NVIDIA driver (530 or newer): install it; in a container set \
                  NVIDIA_DRIVER_CAPABILITIES=graphics,compute,utility so that it is mounted; without a GPU use the CPU \
                  executor",
@@ -39,17 +43,35 @@ fn load(library: &'static str) -> Result<Api, Error> {
     // SAFETY: loading the NVIDIA driver's library runs its initialisers, which need nothing from us.
     let library = unsafe { Library::new(library) }.map_err(not_found)?;
     // SAFETY: the driver exports this function with this signature (guide §3.6).
-    let query = *unsafe { library.get::<QueryFunctionTable>(b"optixQueryFunctionTable\0") }.map_err(not_found)?;
+    let query = *unsafe { library.get::<QueryFunctionTable>(b"optixQueryFunctionTable\0") }
+        .map_err(not_found)?;
     // Never unloaded, so `query` and the table stay valid.
     std::mem::forget(library);
     // SAFETY: `query` is the driver's function of that name.
-    let (table, abi) = unsafe { sys::negotiate(query) }.map_err(|result| Error::UnsupportedDriver {
-        known: sys::ABIS.iter().map(|abi| abi.version).collect(),
-        code: result.0,
-        driver: cuda::display_driver_version().unwrap_or_else(|| "unknown".into()),
-        needed: sys::ABIS.iter().map(|abi| abi.driver_branch).min().unwrap_or_default(),
-    })?;
+    let (table, abi) =
+        unsafe { sys::negotiate(query) }.map_err(|result| Error::UnsupportedDriver {
+            known: sys::ABIS.iter().map(|abi| abi.version).collect(),
+            code: result.0,
+            driver: cuda::display_driver_version().unwrap_or_else(|| "unknown".into()),
+            needed: sys::ABIS
+                .iter()
+                .map(|abi| abi.driver_branch)
+                .min()
+                .unwrap_or_default(),
+        })?;
     Ok(Api { table, abi })
+}
+
+/// The error's text and those of its causes: the loader's own message is a cause.
+pub(super) fn chain(error: &libloading::Error) -> String {
+    let mut text = error.to_string();
+    let mut cause = std::error::Error::source(error);
+    while let Some(error) = cause {
+        text.push_str(": ");
+        text.push_str(&error.to_string());
+        cause = error.source();
+    }
+    text
 }
 
 #[cfg(test)]
@@ -59,7 +81,11 @@ mod tests {
     #[test]
     fn a_missing_library_is_named_with_what_to_do() {
         let text = load("libnvoptix-missing.so.1").err().unwrap().to_string();
-        for part in ["libnvoptix-missing.so.1", "NVIDIA driver", "NVIDIA_DRIVER_CAPABILITIES=graphics"] {
+        for part in [
+            "libnvoptix-missing.so.1: cannot open",
+            "NVIDIA driver",
+            "NVIDIA_DRIVER_CAPABILITIES=graphics",
+        ] {
             assert!(text.contains(part), "{part} is missing in: {text}");
         }
     }

@@ -1,7 +1,5 @@
 //! Acceleration structures: build inputs, options, instances, emitted properties (guide §5).
 
-use core::ffi::c_void;
-
 use super::{CUdeviceptr, OptixPrimitiveType, OptixTraversableHandle};
 
 abi_consts! {
@@ -235,10 +233,15 @@ pub union OptixBuildInputUnion {
 }
 
 const _: () = assert!(size_of::<OptixBuildInputUnion>() == 1024);
-const _: () = assert!(align_of::<OptixBuildInputUnion>() == align_of::<*const c_void>());
+const _: () = assert!(align_of::<OptixBuildInputUnion>() == 8);
 
 impl core::fmt::Debug for OptixBuildInputUnion {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str("OptixBuildInputUnion")
     }
 }
+
+// SAFETY: 32-bit and 64-bit numbers without padding between or after them: 48 + 4 * 4 + 8 + 8 bytes make 80.
+unsafe impl bytemuck::Zeroable for OptixInstance {}
+// SAFETY: as above; every bit pattern is a value.
+unsafe impl bytemuck::Pod for OptixInstance {}

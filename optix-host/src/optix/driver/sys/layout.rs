@@ -61,5 +61,11 @@ macro_rules! handles {
             /// No object.
             pub const NULL: Self = Self(core::ptr::null_mut());
         }
+
+        // SAFETY: a name, not a reference: it is only handed back to the driver, whose functions take it from any
+        // thread and at the same time (guide §3.2).
+        unsafe impl Send for $name {}
+        // SAFETY: as above.
+        unsafe impl Sync for $name {}
     )*};
 }

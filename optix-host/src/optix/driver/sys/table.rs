@@ -16,7 +16,7 @@ pub type QueryFunctionTable = unsafe extern "C" fn(
 ) -> OptixResult;
 
 /// A slot that this crate does not call.
-type Unused = *const c_void;
+type Unused = Option<unsafe extern "C" fn()>;
 
 /// Declares the table. A slot with a signature becomes an `Option` of a function pointer and a method that calls it;
 /// where the driver left the slot empty, the method answers [`OptixResult::ENTRY_SYMBOL_NOT_FOUND`].

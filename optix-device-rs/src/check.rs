@@ -1,0 +1,195 @@
+//! What the macros' output is checked against: traits whose only purpose is the message they fail with.
+//!
+//! Not for users; the macros refer to these by path.
+
+use crate::data::DeviceData;
+use crate::payload::{Part, Payload};
+use crate::view::Element;
+
+// ---- Payload parts -------------------------------------------------------------------------------------------------
+
+/// A place in which a program meets a payload: `AtClosestHit`, `FromMiss`, ...
+pub trait Role {
+    /// The part of payload `R` that belongs there.
+    type Part<R: Payload>: Part;
+}
+
+macro_rules! roles {
+    ($($name:ident)*) => {$(
+        #[derive(Clone, Copy, Debug)]
+        pub enum $name {}
+        impl Role for $name {
+            type Part<R: Payload> = R::$name;
+        }
+    )*};
+}
+roles! {
+    FromCaller AtCaller AtIntersection FromIntersection AtAnyHit FromAnyHit AtClosestHit FromClosestHit AtMiss FromMiss
+}
+
+/// The part is what a program has in place `Place`. Made by `#[derive(Payload)]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not the `{Place}` part of a payload",
+    label = "expected the struct `..{Place}` that `#[derive(Payload)]` makes",
+    note = "a program takes and returns such parts by value, never the payload itself; a record is taken by reference, `&{Self}`"
+)]
+pub trait PartFor<Place: Role>: Part {
+    /// The payload it is a part of.
+    type Payload: Payload;
+    /// The identity, as far as types can't say so.
+    fn take(part: Place::Part<Self::Payload>) -> Self;
+    /// The identity, as far as types can't say so.
+    fn give(self) -> Place::Part<Self::Payload>;
+}
+
+/// What a program without a payload in its result leaves behind.
+#[diagnostic::on_unimplemented(
+    message = "a program does not return `{Self}`, which its payload says it writes",
+    label = "this program must return `{Self}`",
+    note = "return it: `-> {Self}`, for an any-hit program `-> (Decision, {Self})`; or take the party out of `write(..)` in the payload"
+)]
+pub trait MayReturnNothing: Part {
+    /// The empty part.
+    fn nothing() -> Self;
+}
+impl MayReturnNothing for () {
+    #[inline(always)]
+    fn nothing() -> Self {}
+}
+
+// ---- Pipelines -----------------------------------------------------------------------------------------------------
+
+/// All intersection programs of a hit group report the same attributes.
+#[diagnostic::on_unimplemented(
+    message = "the intersection programs of one hit group report different hits: `{Self}` and `{Other}`",
+    label = "its programs report `{Self}` for this ray type and `{Other}` for the first one",
+    note = "hits of one geometry carry the same attributes for every ray type: use one intersection program, or one attribute type"
+)]
+pub trait SameHits<Other> {}
+impl<T> SameHits<T> for T {}
+
+/// Two attribute types are one.
+pub const fn same_hits<A: SameHits<B>, B>() {}
+/// No program is missing that would have to write.
+pub const fn nothing_to_write<T: crate::payload::NothingToWrite>() {}
+
+// ---- Layout --------------------------------------------------------------------------------------------------------
+
+/// Writes a field of a `#[derive(Element)]` struct.
+#[inline(always)]
+pub fn write_element<T: Element>(value: &T, bytes: &mut [u8]) {
+    value.write_to(bytes);
+}
+
+// Owners of arrays of views: textures of a material, say.
+#[cfg(not(target_arch = "nvptx64"))]
+impl<V: crate::host::View, const N: usize> crate::host::View for [V; N]
+where
+    [V; N]: DeviceData,
+{
+    type Owner = [V::Owner; N];
+    fn of(owner: &Self::Owner, keep: &mut crate::host::KeepAlive) -> Self {
+        core::array::from_fn(|i| V::of(&owner[i], keep))
+    }
+}
+
+/// Text that a const panic can show: pieces and numbers.
+struct Text {
+    bytes: [u8; 512],
+    len: usize,
+}
+
+impl Text {
+    const fn push(mut self, text: &str) -> Self {
+        let text = text.as_bytes();
+        let mut i = 0;
+        while i < text.len() && self.len < self.bytes.len() {
+            self.bytes[self.len] = text[i];
+            self.len += 1;
+            i += 1;
+        }
+        self
+    }
+
+    const fn number(self, number: usize) -> Self {
+        let mut digits = [0; 20];
+        let (mut at, mut rest) = (digits.len(), number);
+        loop {
+            at -= 1;
+            digits[at] = b'0' + (rest % 10) as u8;
+            rest /= 10;
+            if rest == 0 {
+                break;
+            }
+        }
+        match core::str::from_utf8(digits.split_at(at).1) {
+            Ok(digits) => self.push(digits),
+            Err(_) => self,
+        }
+    }
+
+    const fn as_str(&self) -> &str {
+        match core::str::from_utf8(self.bytes.split_at(self.len).0) {
+            Ok(text) => text,
+            Err(_) => "a compile-time check failed",
+        }
+    }
+}
+
+const EMPTY: Text = Text { bytes: [0; 512], len: 0 };
+
+/// A payload has 32 words at most (guide 14).
+pub const fn payload_words(name: &str, words: usize) {
+    if words > crate::words::MAX_PAYLOAD_WORDS {
+        let text = EMPTY
+            .push("payload `")
+            .push(name)
+            .push("` takes ")
+            .number(words)
+            .push(" words, but a ray has registers for ")
+            .number(crate::words::MAX_PAYLOAD_WORDS)
+            .push(": take fields out, or keep them in a `SliceMut` of the launch parameters");
+        panic!("{}", text.as_str());
+    }
+}
+
+/// Attributes have 8 words at most (guide 13.4).
+pub const fn attribute_words(name: &str, words: usize) {
+    if words > crate::words::MAX_ATTRIBUTE_WORDS {
+        let text = EMPTY
+            .push("attributes `")
+            .push(name)
+            .push("` take ")
+            .number(words)
+            .push(" words, but a hit has registers for ")
+            .number(crate::words::MAX_ATTRIBUTE_WORDS)
+            .push(": report less and compute the rest in the closest-hit program from the record");
+        panic!("{}", text.as_str());
+    }
+}
+
+/// A record's data is aligned to 16 bytes at most (guide 7.2).
+pub const fn record_align(name: &str, align: usize) {
+    if align > 16 {
+        let text = EMPTY
+            .push("record `")
+            .push(name)
+            .push("` is aligned to ")
+            .number(align)
+            .push(" bytes, but OptiX aligns records to 16: lower its `align(..)`");
+        panic!("{}", text.as_str());
+    }
+}
+
+/// An element has no padding.
+pub const fn no_padding(name: &str, size: usize, fields: usize) {
+    if size != fields {
+        let text = EMPTY
+            .push("element `")
+            .push(name)
+            .push("` has ")
+            .number(size - fields)
+            .push(" bytes of padding, which a buffer can't hold: order fields by falling alignment, or fill the gap with a field such as `pad: u32`");
+        panic!("{}", text.as_str());
+    }
+}

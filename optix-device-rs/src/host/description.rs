@@ -1,0 +1,143 @@
+//! A pipeline as a value: what `pipeline!` declares, for backends to read.
+
+use super::Frame;
+use crate::attributes::GeometryKind;
+use crate::params::Field;
+use crate::ray::Decision;
+
+/// A device program: its entry in the PTX and its host function.
+#[derive(Clone, Copy)]
+pub struct Entry {
+    /// The name in the PTX, with its OptiX prefix (`__closesthit__..`).
+    pub name: &'static str,
+    /// The Rust function's path as written in `pipeline!`, for messages.
+    pub function: &'static str,
+    /// Runs the program on a frame. Programs other than any-hit return [`Decision::Accept`].
+    ///
+    /// The caller promises what [`Cx::new`](crate::machine::Cx::new) asks for.
+    pub run: unsafe fn(&Frame<'_>) -> Decision,
+}
+
+impl core::fmt::Debug for Entry {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+/// Size and alignment of a record's data, and which type it is.
+#[derive(Clone, Copy, Debug)]
+pub struct RecordLayout {
+    /// The type's name.
+    pub name: &'static str,
+    /// Bytes, without the header.
+    pub size: usize,
+    /// Bytes; at most 16 (guide 7.2).
+    pub align: usize,
+}
+
+impl RecordLayout {
+    /// Of a record type.
+    pub const fn of<R: crate::record::SbtRecord>() -> Self {
+        assert!(align_of::<R>() <= 16, "an SBT record's data is aligned to 16 bytes at most (guide 7.2)");
+        Self { name: R::NAME, size: size_of::<R>(), align: align_of::<R>() }
+    }
+}
+
+/// A payload's words and their semantics.
+#[derive(Clone, Copy, Debug)]
+pub struct PayloadDescription {
+    /// The type's name.
+    pub name: &'static str,
+    /// `OptixPayloadSemantics` bits per word; its length is the word count.
+    pub semantics: &'static [u32],
+}
+
+impl PayloadDescription {
+    /// Of a payload type.
+    pub const fn of<R: crate::payload::Payload>() -> Self {
+        assert!(R::WORDS == R::SEMANTICS.len());
+        Self { name: R::NAME, semantics: R::SEMANTICS }
+    }
+}
+
+/// A program with a record of its own: ray generation or miss.
+#[derive(Clone, Copy, Debug)]
+pub struct ProgramDescription {
+    /// The program.
+    pub entry: Entry,
+    /// Its record.
+    pub record: RecordLayout,
+}
+
+/// A ray type.
+#[derive(Clone, Copy, Debug)]
+pub struct RayDescription {
+    /// The payload.
+    pub payload: PayloadDescription,
+    /// The miss program; none where the payload needs none.
+    pub miss: Option<ProgramDescription>,
+}
+
+/// The programs of a hit group for one ray type.
+#[derive(Clone, Copy, Debug)]
+pub struct HitPrograms {
+    /// Closest hit.
+    pub closesthit: Option<Entry>,
+    /// Any hit.
+    pub anyhit: Option<Entry>,
+    /// Intersection; there for custom primitives.
+    pub intersection: Option<Entry>,
+}
+
+/// A material on a geometry kind: one hit group per ray type.
+#[derive(Clone, Copy, Debug)]
+pub struct HitGroupDescription {
+    /// The material's record.
+    pub record: RecordLayout,
+    /// The kind of geometry.
+    pub geometry: GeometryKind,
+    /// Attribute words of its hits.
+    pub attribute_words: usize,
+    /// Per ray type, in the order of [`PipelineDescription::rays`].
+    pub rays: &'static [HitPrograms],
+}
+
+/// The launch parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct ParamsDescription {
+    /// The type's name.
+    pub name: &'static str,
+    /// The constant-memory variable in the PTX.
+    pub symbol: &'static str,
+    /// Bytes.
+    pub size: usize,
+    /// Bytes.
+    pub align: usize,
+    /// The fields.
+    pub fields: &'static [Field],
+}
+
+impl ParamsDescription {
+    /// Of a parameter type.
+    pub const fn of<P: crate::params::LaunchParams>() -> Self {
+        Self { name: P::NAME, symbol: P::SYMBOL, size: size_of::<P>(), align: align_of::<P>(), fields: P::FIELDS }
+    }
+}
+
+/// All of a pipeline.
+#[derive(Clone, Copy, Debug)]
+pub struct PipelineDescription {
+    /// The type's name.
+    pub name: &'static str,
+    /// The launch parameters.
+    pub params: ParamsDescription,
+    /// The ray-generation programs.
+    pub raygen: &'static [ProgramDescription],
+    /// The ray types; the index is SBT offset, miss index and payload type.
+    pub rays: &'static [RayDescription],
+    /// The hit groups.
+    pub hitgroups: &'static [HitGroupDescription],
+    /// The greatest depth of nested trace calls, where `pipeline!` states one (`trace_depth: 4`); otherwise it follows
+    /// from which programs trace which rays.
+    pub trace_depth: Option<u32>,
+}

@@ -1,0 +1,75 @@
+//! A program call on the host: what the program can see, and whom it asks.
+
+use crate::machine::TraceCall;
+use crate::ray::Ray;
+use crate::words::WordBuffer;
+use core::cell::Cell;
+use core::ptr::NonNull;
+use glam::{UVec3, Vec3};
+
+/// What a hit, or a candidate, tells its program.
+#[derive(Clone, Copy, Debug)]
+pub struct HitState {
+    /// Index in its build input, plus that input's offset.
+    pub primitive_index: u32,
+    /// Index of its record in its GAS.
+    pub sbt_gas_index: u32,
+    /// `!0` without an instance.
+    pub instance_id: u32,
+    /// 0 without an instance.
+    pub instance_index: u32,
+    /// 254 and 255: front and back of a triangle; 0 to 127: the program's own.
+    pub kind: u8,
+    /// Attribute words.
+    pub attributes: [u32; 8],
+}
+
+impl HitState {
+    /// For programs without a hit.
+    pub const NONE: Self = Self {
+        primitive_index: 0,
+        sbt_gas_index: 0,
+        instance_id: !0,
+        instance_index: 0,
+        kind: 0,
+        attributes: [0; 8],
+    };
+}
+
+/// Everything a program call on the host can see.
+pub struct Frame<'a> {
+    /// Who runs it.
+    pub executor: &'a (dyn Executor + 'a),
+    /// The launch index.
+    pub launch_index: UVec3,
+    /// The launch dimensions.
+    pub launch_dimensions: UVec3,
+    /// The launch parameters, a valid value of the pipeline's parameter type.
+    pub params: NonNull<u8>,
+    /// The data of the program's record, a valid value of its record type.
+    pub record: NonNull<u8>,
+    /// The payload, shared by all programs of a trace call.
+    pub payload: &'a Cell<WordBuffer>,
+    /// The ray, in world space, as passed to trace; with the `tmax` that the program sees (guide 13.5).
+    pub ray: Ray,
+    /// Origin and direction in object space; intersection and any-hit programs only.
+    pub object_ray: (Vec3, Vec3),
+    /// The hit.
+    pub hit: HitState,
+}
+
+/// What a program asks of the executor that runs it.
+pub trait Executor {
+    /// Traces a ray; `payload` goes in and comes back.
+    fn trace(&self, call: &TraceCall, payload: &mut WordBuffer);
+    /// Reports a hit from an intersection program; true if it was accepted.
+    fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool;
+    /// The end of the ray's interval as an intersection program sees it (guide 13.5): changes while it reports.
+    fn interval_end(&self) -> f32;
+    /// The vertices of the triangle hit, in object space.
+    fn triangle_vertices(&self) -> [Vec3; 3];
+    /// Three rows.
+    fn object_to_world(&self) -> [[f32; 4]; 3];
+    /// Three rows.
+    fn world_to_object(&self) -> [[f32; 4]; 3];
+}

@@ -1,0 +1,177 @@
+//! Owners of what device views point to.
+
+use crate::view::Element;
+use core::marker::PhantomData;
+use std::any::Any;
+use std::string::String;
+use std::sync::Arc;
+use std::vec::Vec;
+
+/// Which device memory or an acceleration structure belongs to; unique in the process.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct DeviceId(pub u64);
+
+/// An error of device memory, from the driver.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MemoryError(pub String);
+
+impl core::fmt::Display for MemoryError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+impl std::error::Error for MemoryError {}
+
+/// An allocation on a device; copies are ordered with the device's launches.
+pub trait Memory: Any + Send + Sync {
+    /// Whose it is.
+    fn device(&self) -> DeviceId;
+    /// The address that programs on that device use.
+    fn address(&self) -> u64;
+    /// Bytes.
+    fn byte_len(&self) -> usize;
+    /// Copies `bytes.len()` bytes from `offset` once earlier launches are done.
+    fn read(&self, offset: usize, bytes: &mut [u8]) -> Result<(), MemoryError>;
+    /// Copies `bytes` to `offset` once earlier launches are done.
+    fn write(&self, offset: usize, bytes: &[u8]) -> Result<(), MemoryError>;
+}
+
+/// A buffer of `T` on a device: the host twin of [`Slice`] and [`SliceMut`]. A clone is the same buffer.
+pub struct Buffer<T> {
+    pub(super) memory: Arc<dyn Memory>,
+    pub(super) len: usize,
+    elements: PhantomData<fn(T) -> T>,
+}
+
+impl<T> Clone for Buffer<T> {
+    fn clone(&self) -> Self {
+        Self { memory: self.memory.clone(), len: self.len, elements: PhantomData }
+    }
+}
+
+impl<T> core::fmt::Debug for Buffer<T> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "Buffer({} elements)", self.len)
+    }
+}
+
+impl<T: Element> Buffer<T> {
+    /// From an allocation of at least `len` elements, aligned for `T`; for backends.
+    ///
+    /// # Panics
+    /// If the allocation is too small or misaligned.
+    #[doc(hidden)]
+    pub fn from_memory(memory: Arc<dyn Memory>, len: usize) -> Self {
+        assert!(memory.byte_len() >= len * size_of::<T>(), "allocation too small");
+        assert!(len == 0 || memory.address().is_multiple_of(align_of::<T>() as u64), "allocation misaligned");
+        Self { memory, len, elements: PhantomData }
+    }
+
+    /// How many elements it has.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether it has none.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Copies all elements to the host, after the launches that were begun before.
+    pub fn read(&self) -> Result<Vec<T>, MemoryError> {
+        let mut elements: Vec<T> = Vec::with_capacity(self.len);
+        let bytes = self.len * size_of::<T>();
+        // SAFETY: the vector's memory, zeroed so that the slice is of initialised bytes.
+        let target = unsafe {
+            core::ptr::write_bytes(elements.as_mut_ptr(), 0, self.len);
+            core::slice::from_raw_parts_mut(elements.as_mut_ptr().cast::<u8>(), bytes)
+        };
+        self.memory.read(0, target)?;
+        // SAFETY: `len` elements were written, and any bytes are a `T` (`Element`).
+        unsafe { elements.set_len(self.len) };
+        Ok(elements)
+    }
+
+    /// Overwrites the buffer; `elements` is as long as the buffer.
+    pub fn write(&self, elements: &[T]) -> Result<(), MemoryError> {
+        if elements.len() != self.len {
+            return Err(MemoryError(std::format!(
+                "{} elements were given for a buffer of {}",
+                elements.len(),
+                self.len
+            )));
+        }
+        // SAFETY: an `Element` has no padding, so all its bytes are initialised.
+        let bytes = unsafe {
+            core::slice::from_raw_parts(elements.as_ptr().cast::<u8>(), size_of_val(elements))
+        };
+        self.memory.write(0, bytes)
+    }
+}
+
+/// A two-dimensional buffer: the host twin of [`SliceMut2d`]. A clone is the same buffer.
+pub struct Buffer2d<T> {
+    pub(super) buffer: Buffer<T>,
+    pub(super) size: [u32; 2],
+}
+
+impl<T> Clone for Buffer2d<T> {
+    fn clone(&self) -> Self {
+        Self { buffer: self.buffer.clone(), size: self.size }
+    }
+}
+
+impl<T> core::fmt::Debug for Buffer2d<T> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "Buffer2d({} x {})", self.size[0], self.size[1])
+    }
+}
+
+impl<T: Element> Buffer2d<T> {
+    /// Rows of `size[0]` elements; for backends.
+    ///
+    /// # Panics
+    /// If the buffer is not `size[0] * size[1]` long.
+    #[doc(hidden)]
+    pub fn from_buffer(buffer: Buffer<T>, size: [u32; 2]) -> Self {
+        assert!(buffer.len() == size[0] as usize * size[1] as usize);
+        Self { buffer, size }
+    }
+
+    /// Width and height.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Copies all elements to the host, row by row, after the launches that were begun before.
+    pub fn read(&self) -> Result<Vec<T>, MemoryError> {
+        self.buffer.read()
+    }
+
+    /// Overwrites the buffer, row by row.
+    pub fn write(&self, elements: &[T]) -> Result<(), MemoryError> {
+        self.buffer.write(elements)
+    }
+}
+
+/// An acceleration structure of a scene: the host twin of [`Traversable`]. A clone is the same structure.
+#[derive(Clone)]
+pub struct World {
+    pub(super) handle: u64,
+    pub(super) device: DeviceId,
+    pub(super) owner: Arc<dyn Any + Send + Sync>,
+}
+
+impl core::fmt::Debug for World {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("World")
+    }
+}
+
+impl World {
+    /// For backends: `owner` keeps `handle` alive on `device`.
+    #[doc(hidden)]
+    pub fn new(handle: u64, device: DeviceId, owner: Arc<dyn Any + Send + Sync>) -> Self {
+        Self { handle, device, owner }
+    }
+}

@@ -1,0 +1,17 @@
+//! What the host side of a shader crate shares with `optix-host`: the description of a pipeline, the frame of a program
+//! call, and the owning twins of device views.
+
+mod description;
+mod frame;
+mod memory;
+mod twin;
+
+pub use crate::attributes::GeometryKind;
+pub use crate::machine::TraceCall;
+pub use description::{
+    Entry, HitGroupDescription, HitPrograms, ParamsDescription, PayloadDescription,
+    PipelineDescription, ProgramDescription, RayDescription, RecordLayout,
+};
+pub use frame::{Executor, Frame, HitState};
+pub use memory::{Buffer, Buffer2d, DeviceId, Memory, MemoryError, World};
+pub use twin::{KeepAlive, Twin, View};

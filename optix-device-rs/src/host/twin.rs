@@ -1,0 +1,106 @@
+//! Host twins: structs in which owning buffers stand in the place of device views.
+
+use super::{Buffer, Buffer2d, DeviceId, Memory, World};
+use crate::data::DeviceData;
+use crate::ray::Traversable;
+use crate::view::{Element, Slice, SliceMut, SliceMut2d};
+use std::any::Any;
+use std::sync::Arc;
+use std::vec::Vec;
+
+/// What a launch or a shader binding table keeps alive, gathered while twins are lowered to device data.
+#[derive(Default)]
+pub struct KeepAlive {
+    owners: Vec<Arc<dyn Any + Send + Sync>>,
+    devices: Vec<(DeviceId, &'static str)>,
+}
+
+impl KeepAlive {
+    fn memory(&mut self, memory: &Arc<dyn Memory>) {
+        self.devices.push((memory.device(), "buffer"));
+        let owner: Arc<dyn Any + Send + Sync> = memory.clone();
+        self.owners.push(owner);
+    }
+
+    /// What is to be kept, so far.
+    pub fn owners(&self) -> &[Arc<dyn Any + Send + Sync>] {
+        &self.owners
+    }
+
+    /// What is to be kept.
+    pub fn into_owners(self) -> Vec<Arc<dyn Any + Send + Sync>> {
+        self.owners
+    }
+
+    /// The first thing that is not `device`'s, by kind.
+    pub fn foreign(&self, device: DeviceId) -> Option<&'static str> {
+        self.devices.iter().find(|(id, _)| *id != device).map(|(_, what)| *what)
+    }
+}
+
+/// Host data that becomes device data: a struct without views is its own twin, a buffer is the twin of a view.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be handed to a device",
+    label = "is not the host twin of any device type"
+)]
+pub trait Twin {
+    /// What programs see.
+    type Device: DeviceData;
+    /// The device data; owners of what it points to go to `keep`.
+    fn lower(&self, keep: &mut KeepAlive) -> Self::Device;
+}
+
+impl Twin for () {
+    type Device = ();
+    fn lower(&self, _: &mut KeepAlive) {}
+}
+
+/// Which host type stands in for a view in a host twin. Used by the derives.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a view of device memory",
+    label = "only `Slice`, `SliceMut`, `SliceMut2d` and `Traversable` have an owner on the host"
+)]
+pub trait View: DeviceData {
+    /// The owner.
+    type Owner: Clone;
+    /// The view of what the owner owns.
+    fn of(owner: &Self::Owner, keep: &mut KeepAlive) -> Self;
+}
+
+impl<T: Element> View for Slice<T> {
+    type Owner = Buffer<T>;
+    fn of(owner: &Buffer<T>, keep: &mut KeepAlive) -> Self {
+        keep.memory(&owner.memory);
+        // SAFETY: the buffer has `len` aligned elements (`from_memory`), and `keep` holds it.
+        unsafe { Self::from_raw(owner.memory.address(), owner.len as u64) }
+    }
+}
+
+impl<T: Element> View for SliceMut<T> {
+    type Owner = Buffer<T>;
+    fn of(owner: &Buffer<T>, keep: &mut KeepAlive) -> Self {
+        keep.memory(&owner.memory);
+        // SAFETY: as for `Slice`.
+        unsafe { Self::from_raw(owner.memory.address(), owner.len as u64) }
+    }
+}
+
+impl<T: Element> View for SliceMut2d<T> {
+    type Owner = Buffer2d<T>;
+    fn of(owner: &Buffer2d<T>, keep: &mut KeepAlive) -> Self {
+        keep.memory(&owner.buffer.memory);
+        let [width, height] = owner.size;
+        // SAFETY: the buffer has `width * height` aligned elements (`from_buffer`), and `keep` holds it.
+        unsafe { Self::from_raw(owner.buffer.memory.address(), width, height) }
+    }
+}
+
+impl View for Traversable {
+    type Owner = World;
+    fn of(owner: &World, keep: &mut KeepAlive) -> Self {
+        keep.devices.push((owner.device, "acceleration structure"));
+        keep.owners.push(owner.owner.clone());
+        // SAFETY: the owner keeps the handle alive (`World::new`), and `keep` holds it.
+        unsafe { Self::from_raw(owner.handle) }
+    }
+}

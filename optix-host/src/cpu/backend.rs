@@ -1,0 +1,127 @@
+//! The CPU as a backend: it turns the scene's description into the kernel's structures and runs launches.
+
+use super::kernel::{self, Accel, AabbInput, Gas, GeometryFlags, Ias, Instance, SbtMapping, TriangleInput};
+use super::machine::{self, Job};
+use super::memory::CpuMemory;
+use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, InstanceInput, Linked, Running, next_device_id};
+use crate::pipeline::Plan;
+use crate::sbt::ShaderBindingTable;
+use crate::scene::GeometryData;
+use crate::{Error, Result};
+use optix_device_rs::host::{DeviceId, GeometryKind, Memory};
+use std::sync::Arc;
+
+/// The CPU.
+pub(crate) struct CpuBackend {
+    id: DeviceId,
+}
+
+impl CpuBackend {
+    pub fn new() -> Self {
+        Self { id: next_device_id() }
+    }
+
+    pub fn description(&self) -> String {
+        format!("CPU executor, {} threads", rayon::current_num_threads())
+    }
+}
+
+impl Backend for CpuBackend {
+    fn id(&self) -> DeviceId {
+        self.id
+    }
+
+    fn allocate(&self, bytes: usize) -> Result<Arc<dyn Memory>> {
+        Ok(Arc::new(CpuMemory::zeroed(self.id, bytes)?))
+    }
+
+    fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel> {
+        let gas = match input.kind {
+            GeometryKind::Triangles => Gas::triangles(input.inputs.iter().filter_map(triangles).collect())?,
+            GeometryKind::Custom => Gas::custom(input.inputs.iter().filter_map(boxes).collect())?,
+        };
+        Ok(built(gas.into()))
+    }
+
+    fn build_ias(&self, instances: &[InstanceInput]) -> Result<BuiltAccel> {
+        let instances = instances.iter().map(|instance| {
+            let child = instance.child.owner.clone().downcast::<Accel>().map_err(|_| {
+                Error::Scene("an instance is of an acceleration structure of another device".into())
+            })?;
+            Ok(Instance {
+                transform: instance.transform,
+                instance_id: instance.id,
+                sbt_offset: instance.sbt_offset,
+                visibility_mask: instance.mask,
+                flags: kernel::InstanceFlags(instance.flags),
+                child,
+            })
+        });
+        Ok(built(Ias::new(instances.collect::<Result<_>>()?)?.into()))
+    }
+
+    fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable) -> Result<Box<dyn Linked>> {
+        Ok(Box::new(CpuPipeline { plan, sbt }))
+    }
+}
+
+fn built(accel: Accel) -> BuiltAccel {
+    let bytes = accel.memory_bytes();
+    let owner = Arc::new(accel);
+    // The handle is the address, which the owner keeps in place.
+    BuiltAccel { handle: Arc::as_ptr(&owner).expose_provenance() as u64, owner, bytes }
+}
+
+fn sbt_mapping(input: &BuildInput) -> SbtMapping {
+    let flags = input.record_has_anyhit.iter().map(|&has| GeometryFlags { disable_anyhit: !has, ..Default::default() });
+    SbtMapping { flags: flags.collect(), per_primitive: input.record_of_primitive.clone() }
+}
+
+fn triangles(input: &BuildInput) -> Option<TriangleInput> {
+    match &*input.geometry {
+        GeometryData::Triangles { vertices, indices } => Some(TriangleInput {
+            vertices: vertices.clone(),
+            indices: indices.clone(),
+            sbt: sbt_mapping(input),
+            primitive_index_offset: 0,
+        }),
+        GeometryData::Boxes(_) => None,
+    }
+}
+
+fn boxes(input: &BuildInput) -> Option<AabbInput> {
+    match &*input.geometry {
+        GeometryData::Boxes(boxes) => Some(AabbInput {
+            boxes: boxes.iter().map(|b| kernel::Aabb::new(b.min.to_array(), b.max.to_array())).collect(),
+            sbt: sbt_mapping(input),
+            primitive_index_offset: 0,
+        }),
+        GeometryData::Triangles { .. } => None,
+    }
+}
+
+struct CpuPipeline {
+    plan: Arc<Plan>,
+    sbt: ShaderBindingTable,
+}
+
+impl Linked for CpuPipeline {
+    fn launch(&self, raygen: usize, params: &[u8], dimensions: [u32; 3]) -> Result<Box<dyn Running>> {
+        machine::run(&Job::new(&self.plan, &self.sbt, params, raygen, dimensions))?;
+        Ok(Box::new(Done))
+    }
+
+    fn details(&self) -> Vec<String> {
+        vec![format!("records: {} hit, {} miss, stride {} bytes", self.sbt.hit.programs().len(),
+            self.sbt.miss.programs().len(), self.sbt.hit.stride())]
+    }
+}
+
+/// A CPU launch is over when `launch` returns.
+struct Done;
+
+impl Running for Done {
+    fn wait(&mut self) -> Result<()> {
+        Ok(())
+    }
+}

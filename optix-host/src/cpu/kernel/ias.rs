@@ -1,0 +1,218 @@
+//! Instance acceleration structures, and the graph of structures.
+
+use std::sync::Arc;
+
+use super::aabb::Aabb;
+use super::bvh::Bvh;
+use super::error::BuildError;
+use super::flags::InstanceFlags;
+use super::gas::{Gas, SINGLE_LEAF};
+use super::transform::Affine;
+
+/// A structure that rays are traced against.
+#[derive(Debug)]
+pub enum Accel {
+    Gas(Gas),
+    Ias(Ias),
+}
+
+/// Most structures on a way from the root to a primitive (guide §12).
+pub const MAX_GRAPH_DEPTH: usize = 31;
+
+impl Accel {
+    /// The smallest box around all primitives of a GAS; for an IAS a box around all that its instances hold.
+    pub fn bounds(&self) -> Aabb {
+        match self {
+            Self::Gas(gas) => gas.bounds(),
+            Self::Ias(ias) => ias.bounds(),
+        }
+    }
+
+    /// Structures on the longest way down, counting this one; a GAS has 1.
+    pub fn depth(&self) -> usize {
+        match self {
+            Self::Gas(_) => 1,
+            Self::Ias(ias) => ias.depth,
+        }
+    }
+
+    /// Heap bytes of this structure alone.
+    pub fn memory_bytes(&self) -> usize {
+        match self {
+            Self::Gas(gas) => gas.memory_bytes(),
+            Self::Ias(ias) => ias.memory_bytes(),
+        }
+    }
+
+    fn max_sbt_offset(&self) -> u32 {
+        match self {
+            Self::Gas(_) => 0,
+            Self::Ias(ias) => ias.max_sbt_offset,
+        }
+    }
+
+    /// See [`Ias::slack`].
+    fn slack(&self) -> f64 {
+        match self {
+            Self::Gas(_) => 1.0,
+            Self::Ias(ias) => f64::from(ias.slack),
+        }
+    }
+}
+
+impl From<Gas> for Accel {
+    fn from(gas: Gas) -> Self {
+        Self::Gas(gas)
+    }
+}
+
+impl From<Ias> for Accel {
+    fn from(ias: Ias) -> Self {
+        Self::Ias(ias)
+    }
+}
+
+/// One instance (`OptixInstance`, guide §5.4).
+#[derive(Clone, Debug)]
+pub struct Instance {
+    /// Object to world, row-major 3x4. Must be invertible.
+    pub transform: [f32; 12],
+    /// 28 bits.
+    pub instance_id: u32,
+    /// 28 bits; the sum along any way down the graph as well.
+    pub sbt_offset: u32,
+    pub visibility_mask: u8,
+    pub flags: InstanceFlags,
+    pub child: Arc<Accel>,
+}
+
+impl Instance {
+    /// An instance at identity, visible to all, with ID and SBT offset 0 and no flags.
+    pub fn new(child: Arc<Accel>) -> Self {
+        Self {
+            transform: Affine::IDENTITY.to_f32(),
+            instance_id: 0,
+            sbt_offset: 0,
+            visibility_mask: 0xff,
+            flags: InstanceFlags::NONE,
+            child,
+        }
+    }
+}
+
+/// An instance in a built structure.
+#[derive(Debug)]
+pub struct Placed {
+    pub instance: Instance,
+    pub(super) inverse: Affine,
+}
+
+impl Placed {
+    /// World (the space of the instance's parent) to object, row-major 3x4: formed in `f64`, rounded once.
+    pub fn inverse_transform(&self) -> [f32; 12] {
+        self.inverse.to_f32()
+    }
+}
+
+/// An instance acceleration structure.
+#[derive(Debug)]
+pub struct Ias {
+    pub(super) bvh: Bvh,
+    pub(super) placed: Vec<Placed>,
+    /// Multiplies the margin of the box test. A child's margin `m R'` in its own space is up to `norm(T) m R'` here,
+    /// with `R' <= norm(T^-1) R`; rounding the ray into the child's space adds as much as the child's own margin.
+    pub(super) slack: f32,
+    max_sbt_offset: u32,
+    depth: usize,
+}
+
+const MAX_INSTANCES: usize = 1 << 28;
+const LIMIT_28_BITS: u32 = 1 << 28;
+
+impl Ias {
+    /// Builds over instances. None at all is legal; rays then miss.
+    pub fn new(instances: Vec<Instance>) -> Result<Self, BuildError> {
+        if instances.len() > MAX_INSTANCES {
+            return Err(BuildError::TooMany { what: "instances", count: instances.len(), limit: MAX_INSTANCES });
+        }
+        let (mut placed, mut boxes) = (Vec::with_capacity(instances.len()), Vec::with_capacity(instances.len()));
+        let (mut slack, mut max_sbt_offset, mut depth) = (1.0f64, 0, 1);
+        for (i, instance) in instances.into_iter().enumerate() {
+            let inverse = check(i, &instance)?;
+            let transform = Affine::from_f32(&instance.transform);
+            boxes.push(outline(&transform, &instance.child.bounds()));
+            slack = slack.max(transform.norm() * inverse.norm() * (instance.child.slack() + 1.0));
+            max_sbt_offset = max_sbt_offset.max(instance.sbt_offset + instance.child.max_sbt_offset());
+            depth = depth.max(1 + instance.child.depth());
+            placed.push(Placed { instance, inverse });
+        }
+        let bvh = Bvh::build(&boxes, SINGLE_LEAF, |instances| instances[0]);
+        Ok(Self { bvh, placed, slack: slack as f32, max_sbt_offset, depth })
+    }
+
+    /// A box around all that the instances hold, a few ulps larger than need be.
+    pub fn bounds(&self) -> Aabb {
+        self.bvh.bounds
+    }
+
+    /// The instances in the order given.
+    pub fn instances(&self) -> &[Placed] {
+        &self.placed
+    }
+
+    /// Heap bytes, those of the children left out.
+    pub fn memory_bytes(&self) -> usize {
+        self.bvh.memory_bytes() + size_of_val(&self.placed[..])
+    }
+}
+
+/// Finds what is wrong with an instance, or gives the inverse of its transform.
+fn check(instance: usize, given: &Instance) -> Result<Affine, BuildError> {
+    for (field, value) in [("instance_id", given.instance_id), ("sbt_offset", given.sbt_offset)] {
+        if value >= LIMIT_28_BITS {
+            return Err(BuildError::Exceeds28Bits { instance, field, value });
+        }
+    }
+    let sum = given.sbt_offset + given.child.max_sbt_offset();
+    if sum >= LIMIT_28_BITS {
+        return Err(BuildError::SbtOffsetSum { instance, offset: given.sbt_offset, sum });
+    }
+    if given.flags.contains(InstanceFlags::DISABLE_ANYHIT | InstanceFlags::ENFORCE_ANYHIT) {
+        return Err(BuildError::AnyHitFlags { instance });
+    }
+    let depth = 1 + given.child.depth();
+    if depth > MAX_GRAPH_DEPTH {
+        return Err(BuildError::TooDeep { instance, depth, limit: MAX_GRAPH_DEPTH });
+    }
+    let transform = given.transform;
+    if !transform.iter().all(|x| x.is_finite()) {
+        return Err(BuildError::NonFiniteTransform { instance, transform });
+    }
+    Affine::from_f32(&transform).inverse().ok_or(BuildError::SingularTransform { instance, transform })
+}
+
+/// A box around the transformed `bounds`. They are widened first by the rounding of an origin in the child's space,
+/// `2^-24` of the largest coordinate, and a little more; the result is clamped to finite numbers.
+fn outline(transform: &Affine, bounds: &Aabb) -> Aabb {
+    if bounds.is_empty() {
+        return Aabb::EMPTY;
+    }
+    let m = &transform.0;
+    let [min, max] = [bounds.min, bounds.max].map(|corner| corner.map(f64::from));
+    let margin = min.iter().chain(&max).fold(0.0f64, |r, x| r.max(x.abs())) * 2f64.powi(-22);
+    let mut outline = Aabb::EMPTY;
+    for r in 0..3 {
+        let (mut low, mut high, mut size) = (m[4 * r + 3], m[4 * r + 3], m[4 * r + 3].abs());
+        for c in 0..3 {
+            let (x, y) = (m[4 * r + c] * (min[c] - margin), m[4 * r + c] * (max[c] + margin));
+            low += x.min(y);
+            high += x.max(y);
+            size += x.abs().max(y.abs());
+        }
+        // Rounding of the sums above.
+        let error = size * 2f64.powi(-50);
+        outline.min[r] = ((low - error) as f32).next_down().clamp(f32::MIN, f32::MAX);
+        outline.max[r] = ((high + error) as f32).next_up().clamp(f32::MIN, f32::MAX);
+    }
+    outline
+}

@@ -1,0 +1,42 @@
+//! The traversal and intersection kernel of the CPU executor.
+//!
+//! It has OptiX's semantics (guide §5, §7.3, §13) and knows nothing of shaders: it calls them through [`Programs`].
+//!
+//! | module | what |
+//! | --- | --- |
+//! | [`gas`], [`ias`] | structures and their inputs, checked |
+//! | [`binary`], [`collapse`], [`bvh`] | the 8-wide hierarchy: built by obvhs, collapsed at least cost, laid out |
+//! | [`ray`], [`simd`], [`triangle`] | the arithmetic: box and triangle tests, their error bounds |
+//! | [`trace`](mod@trace), [`state`], [`program`], [`path`] | traversal, any-hit, reports, hits |
+
+mod aabb;
+mod binary;
+mod bvh;
+mod collapse;
+mod error;
+mod flags;
+mod gas;
+mod ias;
+mod path;
+mod program;
+mod ray;
+mod simd;
+mod state;
+mod trace;
+mod transform;
+mod triangle;
+
+#[cfg(test)]
+mod tests;
+
+pub use aabb::Aabb;
+pub use error::BuildError;
+pub use flags::{GeometryFlags, InstanceFlags, Verdict, any_hit_verdict, ray_flags};
+pub use gas::{AabbInput, Gas, SbtMapping, TriangleInput};
+pub use ias::{Accel, Ias, Instance, MAX_GRAPH_DEPTH, Placed};
+pub use path::InstancePath;
+pub use program::{AnyHit, Candidate, Hit, Programs, Reporter, Site};
+pub use ray::{Ray, RayQuery};
+pub use simd::{Portable, Simd};
+pub use trace::{BACK_FACE, FRONT_FACE, trace, trace_with};
+pub use transform::Affine;

@@ -1,0 +1,76 @@
+//! The instances between the root of a trace and a primitive.
+
+use super::ias::{Accel, MAX_GRAPH_DEPTH, Placed};
+use super::transform::Affine;
+
+/// Which instances lead from the structure given to the trace down to a primitive. Copied by value; no heap.
+#[derive(Clone, Copy, Debug)]
+pub struct InstancePath<'a> {
+    root: &'a Accel,
+    len: u32,
+    indices: [u32; MAX_GRAPH_DEPTH - 1],
+}
+
+impl<'a> InstancePath<'a> {
+    pub(super) fn new(root: &'a Accel) -> Self {
+        Self { root, len: 0, indices: [0; MAX_GRAPH_DEPTH - 1] }
+    }
+
+    #[inline]
+    pub(super) fn push(&mut self, instance: u32) {
+        self.indices[self.len as usize] = instance;
+        self.len += 1;
+    }
+
+    #[inline]
+    pub(super) fn pop(&mut self) {
+        self.len -= 1;
+    }
+
+    /// The structure given to the trace.
+    pub fn root(&self) -> &'a Accel {
+        self.root
+    }
+
+    /// Zero-based instance indices, each in its IAS, nearest the root first. Their order is the order of ties.
+    pub fn indices(&self) -> &[u32] {
+        &self.indices[..self.len as usize]
+    }
+
+    /// The transform list (guide §13.11): nearest the root first.
+    pub fn instances(&self) -> impl Iterator<Item = &'a Placed> {
+        self.indices().iter().scan(self.root, |at, &index| {
+            let Accel::Ias(ias) = *at else { return None };
+            let placed = &ias.placed[index as usize];
+            *at = &placed.instance.child;
+            Some(placed)
+        })
+    }
+
+    /// The innermost instance; `None` where the root is a GAS.
+    pub fn innermost(&self) -> Option<&'a Placed> {
+        self.instances().last()
+    }
+
+    /// `optixGetInstanceId`: the innermost instance's ID, `!0` without one (guide §13.7).
+    pub fn instance_id(&self) -> u32 {
+        self.innermost().map_or(!0, |placed| placed.instance.instance_id)
+    }
+
+    /// `optixGetInstanceIndex`: the innermost instance's index in its IAS, 0 without one (guide §13.7).
+    pub fn instance_index(&self) -> u32 {
+        self.indices().last().copied().unwrap_or(0)
+    }
+
+    /// Object to world, row-major 3x4: the product of all transforms, formed in `f64` and rounded once.
+    pub fn object_to_world(&self) -> [f32; 12] {
+        self.instances()
+            .fold(Affine::IDENTITY, |all, placed| all.after(&Affine::from_f32(&placed.instance.transform)))
+            .to_f32()
+    }
+
+    /// World to object, as [`InstancePath::object_to_world`].
+    pub fn world_to_object(&self) -> [f32; 12] {
+        self.instances().fold(Affine::IDENTITY, |all, placed| placed.inverse.after(&all)).to_f32()
+    }
+}

@@ -1,0 +1,144 @@
+//! What the kernel asks of the shaders, and what it tells them.
+
+use super::flags::Verdict;
+use super::gas::Gas;
+use super::path::InstancePath;
+use super::ray::{Ray, RayQuery};
+use super::state::{Found, State};
+
+/// What an any-hit program decides (guide §13.13).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AnyHit {
+    /// The candidate becomes the closest hit so far.
+    Accept,
+    /// The candidate is discarded.
+    Ignore,
+    /// As `Accept`, and traversal ends at once.
+    Terminate,
+}
+
+/// The programs that run during traversal. The kernel is compiled for each implementor, so empty ones cost nothing.
+pub trait Programs {
+    /// Called for candidates in `[tmin, tmax]`, at most once for a triangle and once for a report, in no promised order.
+    fn any_hit(&mut self, candidate: &Candidate<'_>) -> AnyHit;
+
+    /// Called for custom primitives whose box the ray meets. Calls [`Reporter::report`] for each hit found.
+    fn intersect(&mut self, site: &Site<'_>, reporter: &mut Reporter<'_, '_>);
+}
+
+/// A primitive that a ray has come to.
+#[derive(Clone, Copy, Debug)]
+pub struct Site<'s> {
+    /// With the build input's primitive index offset.
+    pub primitive_index: u32,
+    /// SBT index within the GAS (guide §7.3.2).
+    pub sbt_gas_index: u32,
+    /// Hit-group record of the whole SBT (guide §7.3).
+    pub sbt_index: u32,
+    pub gas: &'s Gas,
+    pub path: &'s InstancePath<'s>,
+    /// The ray as given to the trace.
+    pub query: &'s RayQuery,
+    /// The ray in the GAS's space, transformed in `f64` and rounded once.
+    pub object_ray: Ray,
+}
+
+/// A hit before it is accepted.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate<'s> {
+    pub site: Site<'s>,
+    pub t: f32,
+    /// 254 and 255 for the front and back of a triangle, otherwise as reported.
+    pub hit_kind: u8,
+    /// Triangles: `u`, `v` as bits, the weights of the second and third corner. Unused words are 0.
+    pub attributes: [u32; 8],
+}
+
+/// The closest accepted hit of a trace.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit<'a> {
+    /// In `[tmin, tmax]`, in multiples of the direction's length.
+    pub t: f32,
+    /// 254 and 255 for the front and back of a triangle, otherwise as reported.
+    pub hit_kind: u8,
+    /// Triangles: `u`, `v` as bits, the weights of the second and third corner. Unused words are 0.
+    pub attributes: [u32; 8],
+    /// With the build input's primitive index offset.
+    pub primitive_index: u32,
+    /// SBT index within the GAS (guide §7.3.2).
+    pub sbt_gas_index: u32,
+    /// Hit-group record of the whole SBT (guide §7.3).
+    pub sbt_index: u32,
+    pub gas: &'a Gas,
+    pub path: InstancePath<'a>,
+}
+
+impl Hit<'_> {
+    /// The weights of a triangle's second and third corner.
+    pub fn barycentrics(&self) -> [f32; 2] {
+        [self.attributes[0], self.attributes[1]].map(f32::from_bits)
+    }
+
+    /// The corners of the triangle that was hit, in object space.
+    pub fn triangle_vertices(&self) -> Option<[[f32; 3]; 3]> {
+        self.gas.triangle_vertices(self.sbt_gas_index, self.primitive_index)
+    }
+}
+
+/// Takes the hits that an intersection program finds on one primitive.
+pub struct Reporter<'r, 'a> {
+    pub(super) state: &'r mut State<'a>,
+    pub(super) site: &'r Site<'r>,
+    pub(super) path: &'r InstancePath<'a>,
+    pub(super) gas: &'a Gas,
+    pub(super) primitive: u32,
+    pub(super) instance_offset: u32,
+    pub(super) verdict: Verdict,
+}
+
+impl Reporter<'_, '_> {
+    /// Reports a hit (guide §13.4); tells whether it was accepted.
+    ///
+    /// It is not if `t` lies outside `[tmin, tmax]` or is NaN, if the any-hit program ignores it, if it ties with a hit
+    /// that wins ties (see [`trace`](super::trace)), or if the ray has ended. Only the lowest 7 bits of `hit_kind` and
+    /// the first 8 `attributes` count.
+    pub fn report<P: Programs + ?Sized>(
+        &mut self,
+        programs: &mut P,
+        t: f32,
+        hit_kind: u8,
+        attributes: &[u32],
+    ) -> bool {
+        if !self.state.admits(t, self.path, self.primitive) {
+            return false;
+        }
+        let mut words = [0; 8];
+        words.iter_mut().zip(attributes).for_each(|(to, from)| *to = *from);
+        let found = Found {
+            t,
+            hit_kind: hit_kind & 0x7f,
+            attributes: words,
+            primitive: self.primitive,
+            record: self.site.sbt_gas_index,
+            instance_offset: self.instance_offset,
+            gas: self.gas,
+        };
+        let answer = match self.verdict {
+            Verdict::AnyHit => {
+                programs.any_hit(&Candidate { site: *self.site, t, hit_kind: found.hit_kind, attributes: words })
+            }
+            _ => AnyHit::Accept,
+        };
+        self.state.settle(answer, found, self.path)
+    }
+
+    /// The end of the ray's interval: the closest hit accepted so far, else the trace's `tmax` (guide §13.5).
+    pub fn tmax(&self) -> f32 {
+        self.state.tmax
+    }
+
+    /// Whether an accepted report has ended the ray; an intersection program should return then.
+    pub fn is_terminated(&self) -> bool {
+        self.state.ended
+    }
+}

@@ -1,0 +1,104 @@
+//! The machine that programs run on.
+
+use crate::backend::Backend;
+use crate::cpu::CpuBackend;
+use crate::optix::OptixBackend;
+use crate::{Error, Result};
+use optix_device_rs::host::{Buffer, Buffer2d};
+use optix_device_rs::prelude::Element;
+use std::sync::Arc;
+
+/// A machine that runs device programs: a GPU through OptiX, or the CPU. A clone is the same device.
+///
+/// ```
+/// let device = optix_host::Device::cpu()?;
+/// assert_eq!(device.kind(), optix_host::BackendKind::Cpu);
+/// let buffer = device.buffer(&[1.0f32, 2.0])?;
+/// assert_eq!(buffer.read()?, [1.0, 2.0]);
+/// # Ok::<(), optix_host::Error>(())
+/// ```
+#[derive(Clone)]
+pub struct Device {
+    pub(crate) backend: Arc<dyn Backend>,
+    kind: BackendKind,
+    description: Arc<str>,
+}
+
+/// Which kind of machine a [`Device`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BackendKind {
+    /// The embedded CPU executor.
+    Cpu,
+    /// NVIDIA OptiX.
+    Optix,
+}
+
+impl Device {
+    /// OptiX if the driver is there, otherwise the CPU; [`Device::description`] says which, and why.
+    pub fn best() -> Result<Self> {
+        match Self::optix() {
+            Ok(device) => Ok(device),
+            Err(why) => {
+                let cpu = Self::cpu()?;
+                let description = format!("{} ({why})", cpu.description).into();
+                Ok(Self { description, ..cpu })
+            }
+        }
+    }
+
+    /// The CPU, on all cores (rayon's global pool).
+    pub fn cpu() -> Result<Self> {
+        let backend = CpuBackend::new();
+        let description = backend.description().into();
+        Ok(Self { backend: Arc::new(backend), kind: BackendKind::Cpu, description })
+    }
+
+    /// The first GPU, through OptiX.
+    pub fn optix() -> Result<Self> {
+        Self::optix_with(&OptixOptions::default())
+    }
+
+    /// The first GPU, through OptiX, with options.
+    pub fn optix_with(options: &OptixOptions) -> Result<Self> {
+        let backend = OptixBackend::new(options)?;
+        let description = backend.description().into();
+        Ok(Self { backend: Arc::new(backend), kind: BackendKind::Optix, description })
+    }
+
+    /// Which kind of machine it is.
+    pub fn kind(&self) -> BackendKind {
+        self.kind
+    }
+
+    /// The machine in a line, and for [`Device::best`] why it was chosen.
+    pub fn description(&self) -> &str {
+        &self.description
+    }
+
+    /// A buffer that holds `elements`.
+    pub fn buffer<T: Element>(&self, elements: &[T]) -> Result<Buffer<T>> {
+        let buffer = self.zeroed(elements.len())?;
+        buffer.write(elements)?;
+        Ok(buffer)
+    }
+
+    /// A buffer of `len` elements, all bytes zero.
+    pub fn zeroed<T: Element>(&self, len: usize) -> Result<Buffer<T>> {
+        let bytes = len.checked_mul(size_of::<T>()).ok_or_else(|| {
+            Error::Scene(format!("a buffer of {len} elements of {} bytes is larger than memory", size_of::<T>()))
+        })?;
+        Ok(Buffer::from_memory(self.backend.allocate(bytes)?, len))
+    }
+
+    /// A two-dimensional buffer of `size[1]` rows of `size[0]` elements, all bytes zero.
+    pub fn zeroed_2d<T: Element>(&self, size: [u32; 2]) -> Result<Buffer2d<T>> {
+        Ok(Buffer2d::from_buffer(self.zeroed(size[0] as usize * size[1] as usize)?, size))
+    }
+}
+
+/// How OptiX is set up.
+#[derive(Clone, Debug, Default)]
+pub struct OptixOptions {
+    /// Validation mode (guide 4.3): slow, reports what is otherwise undefined.
+    pub validation: bool,
+}

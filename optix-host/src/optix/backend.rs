@@ -1,0 +1,340 @@
+//! OptiX as a backend: it turns the scene's description and the plan into driver objects.
+
+use super::driver::{
+    self, AabbInput, Accel, AccelOptions, BoundValue, Context, ContextOptions, DeviceBuffer, Entry, GeometryFlags,
+    Indices, Instance, InstanceFlags, Intersection, LaunchArgs, LinkOptions, Module, ModuleOptions, PayloadSemantics,
+    PayloadType, Pipeline, PipelineOptions, PrimitiveKinds, ProgramGroup, Programs, Records, SbtIndices, SbtSection,
+    SbtSections, ShaderBindingTable as DeviceTable, Source, TraversableGraph, TriangleInput, stack::CallDepths,
+};
+use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, InstanceInput, Linked, Running, next_device_id};
+use crate::pipeline::{Graph, Plan};
+use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
+use crate::scene::GeometryData;
+use crate::{Error, OptixOptions, Result};
+use optix_device_rs::host::{self as device, DeviceId, GeometryKind, Memory, MemoryError};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A GPU through OptiX.
+pub(crate) struct OptixBackend {
+    id: DeviceId,
+    context: Context,
+}
+
+impl OptixBackend {
+    pub fn new(options: &OptixOptions) -> Result<Self> {
+        let options = ContextOptions { validation: options.validation, ..Default::default() };
+        let context = Context::new(&options).map_err(|e| Error::NoOptix(e.to_string()))?;
+        Ok(Self { id: next_device_id(), context })
+    }
+
+    pub fn description(&self) -> String {
+        let info = self.context.info();
+        let driver = info.driver_version.as_deref().unwrap_or("of unknown version");
+        let (release, abi) = (self.context.optix_release(), self.context.abi_version());
+        format!("OptiX {release} (ABI {abi}) on {}, driver {driver}", info.name)
+    }
+}
+
+impl Backend for OptixBackend {
+    fn id(&self) -> DeviceId {
+        self.id
+    }
+
+    fn allocate(&self, bytes: usize) -> Result<Arc<dyn Memory>> {
+        Ok(Arc::new(OptixMemory { device: self.id, buffer: DeviceBuffer::zeroed(&self.context, bytes)? }))
+    }
+
+    fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel> {
+        let options = AccelOptions { compact: input.compact, ..Default::default() };
+        let accel = match input.kind {
+            GeometryKind::Triangles => {
+                let inputs: Vec<_> = input.inputs.iter().filter_map(triangles).collect();
+                Accel::triangles(&self.context, &inputs, &options)?
+            }
+            GeometryKind::Custom => {
+                let boxes: Vec<_> = input.inputs.iter().filter_map(boxes).collect();
+                let inputs: Vec<_> = boxes
+                    .iter()
+                    .map(|(boxes, input)| AabbInput {
+                        aabbs: vec![Source::host(boxes)],
+                        records: records(input),
+                        primitive_index_offset: 0,
+                    })
+                    .collect();
+                Accel::aabbs(&self.context, &inputs, &options)?
+            }
+        };
+        Ok(built(accel))
+    }
+
+    fn build_ias(&self, instances: &[InstanceInput]) -> Result<BuiltAccel> {
+        let instances = instances.iter().map(|instance| {
+            let child = instance.child.owner.downcast_ref::<Accel>().ok_or_else(|| {
+                Error::Scene("an instance is of an acceleration structure of another device".into())
+            })?;
+            Ok(Instance {
+                transform: instance.transform,
+                id: instance.id,
+                sbt_offset: instance.sbt_offset,
+                visibility_mask: instance.mask,
+                flags: InstanceFlags::from_bits(instance.flags),
+                ..Instance::of(child)
+            })
+        });
+        let instances: Vec<_> = instances.collect::<Result<_>>()?;
+        Ok(built(Accel::instances(&self.context, &instances, &AccelOptions::default())?))
+    }
+
+    fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable) -> Result<Box<dyn Linked>> {
+        Ok(Box::new(OptixPipeline::new(&self.context, &plan, sbt)?))
+    }
+}
+
+struct OptixMemory {
+    device: DeviceId,
+    buffer: DeviceBuffer,
+}
+
+fn memory_error(error: driver::Error) -> MemoryError {
+    MemoryError(error.to_string())
+}
+
+impl Memory for OptixMemory {
+    fn device(&self) -> DeviceId {
+        self.device
+    }
+    fn address(&self) -> u64 {
+        self.buffer.address()
+    }
+    fn byte_len(&self) -> usize {
+        self.buffer.len()
+    }
+    fn read(&self, offset: usize, bytes: &mut [u8]) -> Result<(), MemoryError> {
+        self.buffer.download(offset, bytes).map_err(memory_error)
+    }
+    fn write(&self, offset: usize, bytes: &[u8]) -> Result<(), MemoryError> {
+        self.buffer.upload(offset, bytes).map_err(memory_error)
+    }
+}
+
+fn built(accel: Accel) -> BuiltAccel {
+    BuiltAccel { handle: accel.handle(), bytes: accel.size(), owner: Arc::new(accel) }
+}
+
+fn records(input: &BuildInput) -> Records<'_> {
+    let flags = input.record_has_anyhit.iter();
+    Records {
+        flags: flags.map(|&has| if has { GeometryFlags::NONE } else { GeometryFlags::DISABLE_ANYHIT }).collect(),
+        indices: input.record_of_primitive.as_deref().map(|indices| SbtIndices::U32(Source::host(indices))),
+    }
+}
+
+fn triangles(input: &BuildInput) -> Option<TriangleInput<'_>> {
+    match &*input.geometry {
+        GeometryData::Triangles { vertices, indices } => Some(TriangleInput {
+            vertices: vec![Source::host(vertices)],
+            indices: indices.as_deref().map(|indices| Indices::U32(Source::host(indices))),
+            pre_transform: None,
+            records: records(input),
+            primitive_index_offset: 0,
+        }),
+        GeometryData::Boxes(_) => None,
+    }
+}
+
+fn boxes(input: &BuildInput) -> Option<(Vec<[f32; 6]>, &BuildInput)> {
+    match &*input.geometry {
+        GeometryData::Triangles { .. } => None,
+        GeometryData::Boxes(boxes) => {
+            let boxes = boxes.iter().map(|b| {
+                let ([a, b, c], [d, e, f]) = (b.min.to_array(), b.max.to_array());
+                [a, b, c, d, e, f]
+            });
+            Some((boxes.collect(), input))
+        }
+    }
+}
+
+/// A pipeline with its table on the device.
+struct OptixPipeline {
+    pipeline: Pipeline,
+    table: DeviceTable,
+    details: Vec<String>,
+}
+
+impl OptixPipeline {
+    fn new(context: &Context, plan: &Plan, sbt: ShaderBindingTable) -> Result<Self> {
+        let ptx = plan.ptx.as_deref().unwrap_or_default();
+        let options = pipeline_options(plan);
+        let payloads = payload_types(plan)?;
+        let bound_values = plan.bound.iter().map(|bound| BoundValue {
+            offset: bound.field.offset,
+            bytes: bound.bytes.clone(),
+            annotation: bound.field.name.into(),
+        });
+        let module_options = ModuleOptions {
+            bound_values: bound_values.collect(),
+            payload_types: payloads.clone(),
+            ..Default::default()
+        };
+        let module = Module::from_ptx(context, ptx, &module_options, &options)?;
+
+        let mut groups = Groups { context, module: &module, payloads: &payloads, made: HashMap::new() };
+        let raygen = packed(sbt.raygen, |&i| groups.raygen(plan, i))?;
+        let miss = packed(sbt.miss, |&ray| groups.miss(plan, ray))?;
+        let hit = packed(sbt.hit, |&slot| groups.hit(plan, slot))?;
+        let groups: Vec<_> = groups.made.into_values().collect();
+
+        let link = LinkOptions {
+            depths: CallDepths { trace: plan.trace_depth, ..Default::default() },
+            max_graph_depth: plan.graph_depth,
+            stack: None,
+        };
+        let pipeline = Pipeline::new(context, &groups, &options, &link)?;
+        let sections = SbtSections {
+            raygen: section(&raygen),
+            miss: section(&miss),
+            hitgroup: section(&hit),
+            ..Default::default()
+        };
+        let keep: driver::KeepAlive = vec![Arc::new(groups)];
+        let table = DeviceTable::new(context, &sections, keep)?;
+        let stack = pipeline.stack();
+        let mut details = vec![
+            format!("program groups: {}", groups_count(&raygen, &miss, &hit)),
+            format!("continuation stack: {} bytes", stack.continuation),
+            format!("records: {} hit, {} miss, stride {} bytes", hit.programs().len(), miss.programs().len(), hit.stride()),
+        ];
+        details.extend(module.log().lines().map(|line| format!("compiler: {line}")));
+        Ok(Self { pipeline, table, details })
+    }
+}
+
+fn groups_count<A, B, C>(raygen: &Section<A>, miss: &Section<B>, hit: &Section<C>) -> usize {
+    raygen.programs().len() + miss.programs().len() + hit.programs().len()
+}
+
+fn section<K>(section: &Section<K>) -> SbtSection<'_> {
+    SbtSection { bytes: section.bytes(), stride: section.stride() }
+}
+
+/// The section with the headers of its programs' groups.
+fn packed<K: Copy>(mut section: Section<K>, mut group: impl FnMut(&K) -> Result<ProgramGroup>) -> Result<Section<K>> {
+    for i in 0..section.programs().len() {
+        let mut header = [0; HEADER_SIZE];
+        group(&section.programs()[i])?.pack_header(&mut header)?;
+        section.header_mut(i).copy_from_slice(&header);
+    }
+    Ok(section)
+}
+
+/// Makes each program group once.
+struct Groups<'a> {
+    context: &'a Context,
+    module: &'a Module,
+    payloads: &'a [PayloadType],
+    made: HashMap<GroupKey, ProgramGroup>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum GroupKey {
+    Raygen(usize),
+    Miss(usize),
+    Hit(HitProgram),
+}
+
+impl Groups<'_> {
+    fn get(&mut self, key: GroupKey, programs: &Programs<'_>, ray: Option<usize>) -> Result<ProgramGroup> {
+        if let Some(group) = self.made.get(&key) {
+            return Ok(group.clone());
+        }
+        let group = ProgramGroup::new(self.context, programs, ray.map(|ray| &self.payloads[ray]))?;
+        self.made.insert(key, group.clone());
+        Ok(group)
+    }
+
+    fn raygen(&mut self, plan: &Plan, index: usize) -> Result<ProgramGroup> {
+        let entry = Entry { module: self.module, name: plan.description.raygen[index].entry.name };
+        self.get(GroupKey::Raygen(index), &Programs::Raygen(entry), None)
+    }
+
+    fn miss(&mut self, plan: &Plan, ray: usize) -> Result<ProgramGroup> {
+        let module = self.module;
+        let entry = plan.description.rays[ray].miss.map(|miss| Entry { module, name: miss.entry.name });
+        self.get(GroupKey::Miss(ray), &Programs::Miss(entry), entry.map(|_| ray))
+    }
+
+    fn hit(&mut self, plan: &Plan, slot: HitProgram) -> Result<ProgramGroup> {
+        let module = self.module;
+        let programs = plan.description.hitgroups[slot.group].rays[slot.ray];
+        let entry = |entry: Option<device::Entry>| entry.map(|entry| Entry { module, name: entry.name });
+        let group = Programs::HitGroup {
+            closesthit: entry(programs.closesthit),
+            anyhit: entry(programs.anyhit),
+            intersection: entry(programs.intersection).map(Intersection::Program),
+        };
+        let has_programs = [programs.closesthit, programs.anyhit, programs.intersection].iter().any(Option::is_some);
+        self.get(GroupKey::Hit(slot), &group, has_programs.then_some(slot.ray))
+    }
+}
+
+fn pipeline_options(plan: &Plan) -> PipelineOptions {
+    let primitives = plan.kinds.iter().fold(PrimitiveKinds::default(), |all, kind| {
+        all.with(match kind {
+            GeometryKind::Triangles => PrimitiveKinds::TRIANGLE,
+            GeometryKind::Custom => PrimitiveKinds::CUSTOM,
+        })
+    });
+    PipelineOptions {
+        graph: match plan.graph {
+            Graph::SingleGas => TraversableGraph::SingleGas,
+            Graph::SingleLevelInstancing => TraversableGraph::SingleLevelInstancing,
+            Graph::Any => TraversableGraph::Any,
+        },
+        attribute_values: plan.attribute_words,
+        launch_params: Some(plan.description.params.symbol.into()),
+        primitives,
+        ..Default::default()
+    }
+}
+
+fn payload_types(plan: &Plan) -> Result<Vec<PayloadType>> {
+    let types = plan.description.rays.iter().map(|ray| {
+        let semantics = ray.payload.semantics.iter().map(|&bits| PayloadSemantics::from_bits(bits));
+        let semantics = semantics.collect::<Option<Vec<_>>>().ok_or_else(|| Error::Pipeline {
+            pipeline: plan.description.name,
+            what: format!("payload {} has semantics bits that OptiX does not know", ray.payload.name),
+        })?;
+        Ok(PayloadType { semantics })
+    });
+    types.collect()
+}
+
+impl Linked for OptixPipeline {
+    fn launch(&self, raygen: usize, params: &[u8], dimensions: [u32; 3]) -> Result<Box<dyn Running>> {
+        let args =
+            LaunchArgs { sbt: &self.table, raygen: raygen as u32, params, dims: dimensions, keep: Vec::new() };
+        // SAFETY: parameters and records were lowered from the pipeline's own types, whose layout is asserted on both
+        // sides; their views come from owners on this device, which `crate::Launch` and `crate::Pipeline` hold until the
+        // launch is done; `Pipeline::check_world` refuses structures that the options or the table do not cover, and
+        // `BoundValue::check` parameters that differ from bound ones.
+        let launch = unsafe { self.pipeline.launch(args) }?;
+        Ok(Box::new(OptixLaunch(Some(launch))))
+    }
+
+    fn details(&self) -> Vec<String> {
+        self.details.clone()
+    }
+}
+
+struct OptixLaunch(Option<driver::Launch>);
+
+impl Running for OptixLaunch {
+    fn wait(&mut self) -> Result<()> {
+        if let Some(launch) = self.0.take() {
+            launch.wait()?;
+        }
+        Ok(())
+    }
+}

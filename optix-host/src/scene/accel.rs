@@ -1,0 +1,309 @@
+//! Acceleration structures: geometry (GAS) and instances (IAS) (guide 5).
+
+use super::{Geometry, GeometryData, Scene};
+use crate::backend::{BuildInput, BuiltAccel, GasInput, InstanceInput};
+use crate::{Error, Result};
+use glam::Affine3A;
+use optix_device_rs::attributes::Geometry as GeometryKindOf;
+use optix_device_rs::host::{DeviceId, World};
+use optix_device_rs::pipeline::Pipeline;
+use std::any::Any;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// Geometry with its material, to go into a GAS.
+pub struct GasMember<P, G> {
+    data: Arc<GeometryData>,
+    scene: u64,
+    /// Material and hit group per record.
+    records: Vec<(u32, u32)>,
+    record_of_primitive: Option<Vec<u32>>,
+    types: PhantomData<fn(P, G)>,
+}
+
+impl<P, G> GasMember<P, G> {
+    pub(super) fn new(
+        geometry: &Geometry<G>,
+        scene: u64,
+        records: Vec<(u32, u32)>,
+        record_of_primitive: Option<Vec<u32>>,
+    ) -> Self {
+        Self { data: geometry.data.clone(), scene, records, record_of_primitive, types: PhantomData }
+    }
+}
+
+/// An acceleration structure of a scene. A clone is the same structure.
+pub struct Accel<P> {
+    shared: Arc<AccelShared>,
+    pipeline: PhantomData<fn(P)>,
+}
+
+impl<P> Clone for Accel<P> {
+    fn clone(&self) -> Self {
+        Self { shared: self.shared.clone(), pipeline: PhantomData }
+    }
+}
+
+/// What a launch checks of the structures it is given.
+pub(crate) struct AccelShared {
+    pub built: BuiltAccel,
+    pub device: DeviceId,
+    pub scene: u64,
+    /// Levels of instances; 0 for a GAS.
+    pub depth: u32,
+    /// First record slot; 0 for an IAS, whose instances carry their offsets.
+    first_slot: u32,
+    /// The table has at least this many slots.
+    pub slots: u32,
+    /// Keeps the children alive.
+    _children: Vec<Arc<AccelShared>>,
+}
+
+/// `OptixInstanceFlags` (guide 5.4).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct InstanceFlags(u32);
+
+impl InstanceFlags {
+    /// No flag.
+    pub const NONE: Self = Self(0);
+    /// Rays don't cull faces of this instance's triangles.
+    pub const DISABLE_TRIANGLE_FACE_CULLING: Self = Self(1);
+    /// Front and back are exchanged.
+    pub const FLIP_TRIANGLE_FACING: Self = Self(2);
+    /// No any-hit calls; a ray may override.
+    pub const DISABLE_ANYHIT: Self = Self(4);
+    /// Any-hit calls where geometry disables them; a ray may override.
+    pub const ENFORCE_ANYHIT: Self = Self(8);
+
+    /// Bits of `OptixInstanceFlags`.
+    pub const fn bits(self) -> u32 {
+        self.0
+    }
+}
+
+impl core::ops::BitOr for InstanceFlags {
+    type Output = Self;
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+/// A structure placed in an IAS.
+pub struct Instance<P> {
+    child: Accel<P>,
+    transform: Affine3A,
+    id: u32,
+    mask: u8,
+    flags: InstanceFlags,
+}
+
+impl<P> Instance<P> {
+    /// The application's id, below 2^28, which programs read by `instance_id`.
+    pub fn id(mut self, id: u32) -> Self {
+        self.id = id;
+        self
+    }
+
+    /// Rays whose mask shares no bit with this one don't see the instance.
+    pub fn mask(mut self, mask: u8) -> Self {
+        self.mask = mask;
+        self
+    }
+
+    /// With these flags.
+    pub fn flags(mut self, flags: InstanceFlags) -> Self {
+        self.flags = flags;
+        self
+    }
+}
+
+impl<P> Accel<P> {
+    /// An instance of this structure: `transform` takes its object space to the space of the IAS.
+    pub fn at(&self, transform: Affine3A) -> Instance<P> {
+        Instance { child: self.clone(), transform, id: 0, mask: 0xff, flags: InstanceFlags::NONE }
+    }
+
+    /// The structure as launch parameters take it: what rays are traced against.
+    ///
+    /// A GAS that does not have the first records of the table can't be a root itself, since only instances carry
+    /// offsets: put it in an IAS.
+    pub fn world(&self) -> Result<World> {
+        let shared = &self.shared;
+        if shared.first_slot != 0 {
+            return Err(Error::Scene(
+                "this GAS is not the scene's first, so its records are reached through an instance only: \
+                 trace against an IAS that has it"
+                    .into(),
+            ));
+        }
+        let owner: Arc<dyn Any + Send + Sync> = shared.clone();
+        Ok(World::new(shared.built.handle, shared.device, owner))
+    }
+
+    /// Bytes of the finished structure, without its children.
+    pub fn bytes(&self) -> usize {
+        self.shared.built.bytes
+    }
+}
+
+/// Gathers what a GAS is built of.
+pub struct GasBuilder<'s, P, G> {
+    scene: &'s mut Scene<P>,
+    members: Vec<GasMember<P, G>>,
+    compact: bool,
+}
+
+/// Gathers what an IAS is built of.
+pub struct IasBuilder<'s, P> {
+    scene: &'s mut Scene<P>,
+    instances: Vec<Instance<P>>,
+}
+
+impl<P: Pipeline> Scene<P> {
+    /// A geometry acceleration structure of these, all of one kind (guide 5).
+    pub fn gas<G: GeometryKindOf>(
+        &mut self,
+        members: impl IntoIterator<Item = GasMember<P, G>>,
+    ) -> GasBuilder<'_, P, G> {
+        GasBuilder { members: members.into_iter().collect(), compact: false, scene: self }
+    }
+
+    /// An instance acceleration structure of these (guide 5.4).
+    pub fn ias(&mut self, instances: impl IntoIterator<Item = Instance<P>>) -> IasBuilder<'_, P> {
+        IasBuilder { instances: instances.into_iter().collect(), scene: self }
+    }
+}
+
+impl<P: Pipeline, G: GeometryKindOf> GasBuilder<'_, P, G> {
+    /// Compacts the structure after the build (guide 5.8).
+    pub fn compact(mut self) -> Self {
+        self.compact = true;
+        self
+    }
+
+    /// Builds it.
+    pub fn build(self) -> Result<Accel<P>> {
+        let state = &mut self.scene.state;
+        if self.members.is_empty() {
+            return Err(Error::Scene("a GAS needs at least one geometry".into()));
+        }
+        for (i, member) in self.members.iter().enumerate() {
+            if member.scene != state.id {
+                return Err(Error::Scene(format!("geometry {i} of the GAS has a material of another scene")));
+            }
+            check_records(i, member)?;
+        }
+        let description = P::DESCRIPTION;
+        let inputs = self.members.iter().map(|member| BuildInput {
+            geometry: member.data.clone(),
+            record_has_anyhit: member
+                .records
+                .iter()
+                .map(|&(_, group)| description.hitgroups[group as usize].rays.iter().any(|r| r.anyhit.is_some()))
+                .collect(),
+            record_of_primitive: member.record_of_primitive.clone(),
+        });
+        let input = GasInput { kind: G::KIND, inputs: inputs.collect(), compact: self.compact };
+        let built = self.scene.device.backend.build_gas(&input)?;
+        let records = self.members.iter().flat_map(|m| m.records.iter().copied()).collect();
+        let first_slot = state.slots_for(records);
+        state.usage.add(G::KIND);
+        state.usage.depths.push(0);
+        Ok(Accel {
+            shared: Arc::new(AccelShared {
+                built,
+                device: self.scene.device.backend.id(),
+                scene: state.id,
+                depth: 0,
+                first_slot,
+                slots: state.slots.len() as u32,
+                _children: Vec::new(),
+            }),
+            pipeline: PhantomData,
+        })
+    }
+}
+
+fn check_records<P, G>(index: usize, member: &GasMember<P, G>) -> Result<()> {
+    let Some(which) = &member.record_of_primitive else { return Ok(()) };
+    let (primitives, materials) = (member.data.primitives(), member.records.len());
+    if which.len() != primitives {
+        return Err(Error::Scene(format!(
+            "geometry {index} has {primitives} primitives but {} material numbers",
+            which.len()
+        )));
+    }
+    match which.iter().position(|&w| w as usize >= materials) {
+        Some(primitive) => Err(Error::Scene(format!(
+            "primitive {primitive} of geometry {index} has material number {}, but there are {materials} materials",
+            which[primitive]
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Instance ids and SBT offsets have 28 bits (guide 12).
+const MAX_28_BITS: u32 = (1 << 28) - 1;
+/// Levels of a traversable graph, with the GAS (guide 12).
+const MAX_GRAPH_DEPTH: u32 = 31;
+
+impl<P: Pipeline> IasBuilder<'_, P> {
+    /// Builds it.
+    pub fn build(self) -> Result<Accel<P>> {
+        let state = &mut self.scene.state;
+        if self.instances.is_empty() {
+            return Err(Error::Scene("an IAS needs at least one instance".into()));
+        }
+        let mut inputs = Vec::with_capacity(self.instances.len());
+        let mut depth = 0;
+        for (i, instance) in self.instances.iter().enumerate() {
+            let child = &instance.child.shared;
+            if child.scene != state.id {
+                return Err(Error::Scene(format!("instance {i} is of another scene's acceleration structure")));
+            }
+            if instance.id > MAX_28_BITS {
+                return Err(Error::Scene(format!("instance {i} has id {}, more than 28 bits", instance.id)));
+            }
+            if !instance.transform.is_finite() || instance.transform.matrix3.determinant() == 0.0 {
+                return Err(Error::Scene(format!(
+                    "instance {i} has a transform that is not finite or can't be inverted: {}",
+                    instance.transform
+                )));
+            }
+            let sbt_offset = child.first_slot * P::RAY_TYPES;
+            if sbt_offset > MAX_28_BITS {
+                return Err(Error::Scene(format!("instance {i} has SBT offset {sbt_offset}, more than 28 bits")));
+            }
+            depth = depth.max(child.depth + 1);
+            let rows = glam::Mat4::from(instance.transform).transpose().to_cols_array();
+            inputs.push(InstanceInput {
+                transform: core::array::from_fn(|k| rows[k]),
+                id: instance.id,
+                mask: instance.mask,
+                flags: instance.flags.bits(),
+                sbt_offset,
+                child: child.built.clone(),
+            });
+        }
+        if depth >= MAX_GRAPH_DEPTH {
+            return Err(Error::Scene(format!(
+                "{} levels of instances: a traversable graph has {MAX_GRAPH_DEPTH} levels with its geometry",
+                depth
+            )));
+        }
+        let built = self.scene.device.backend.build_ias(&inputs)?;
+        state.usage.depths.push(depth);
+        Ok(Accel {
+            shared: Arc::new(AccelShared {
+                built,
+                device: self.scene.device.backend.id(),
+                scene: state.id,
+                depth,
+                first_slot: 0,
+                slots: state.slots.len() as u32,
+                _children: self.instances.into_iter().map(|i| i.child.shared).collect(),
+            }),
+            pipeline: PhantomData,
+        })
+    }
+}

@@ -1,0 +1,141 @@
+//! Scenes: geometry, materials and the acceleration structures that bring them together. Knows no backend.
+
+mod accel;
+mod geometry;
+mod material;
+
+pub(crate) use accel::AccelShared;
+pub use accel::{Accel, GasBuilder, GasMember, IasBuilder, Instance, InstanceFlags};
+pub(crate) use geometry::GeometryData;
+pub use geometry::{Aabb, Boxes, Geometry, GeometryError, TriangleMesh};
+pub use material::Material;
+pub(crate) use material::MaterialState;
+
+use crate::{Device, Error, Result};
+use optix_device_rs::host::{GeometryKind, KeepAlive, Twin};
+use optix_device_rs::payload::Payload;
+use optix_device_rs::pipeline::{HasRay, HasRayGen, Pipeline};
+use optix_device_rs::record::SbtRecord;
+use optix_device_rs::data::DeviceData;
+use std::any::Any;
+use std::collections::HashMap;
+use std::marker::PhantomData;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A scene for pipeline `P`: it holds the records of the shader binding table and builds acceleration structures.
+pub struct Scene<P> {
+    pub(crate) device: Device,
+    pub(crate) state: SceneState,
+    pipeline: PhantomData<fn(P)>,
+}
+
+/// The backend-free content of a scene.
+pub(crate) struct SceneState {
+    /// Unique in the process.
+    pub id: u64,
+    pub materials: Vec<MaterialState>,
+    /// Hit records in the order of the table, one per material use; each stands for one record per ray type.
+    pub slots: Vec<Slot>,
+    /// Where the records of a GAS with these materials begin.
+    slots_of: HashMap<Vec<Slot>, u32>,
+    /// Per ray type.
+    pub miss: Vec<RecordData>,
+    /// Per ray-generation program.
+    pub raygen: Vec<RecordData>,
+    pub usage: Usage,
+}
+
+/// One material on one kind of geometry: its index and its hit group's.
+pub(crate) type Slot = (u32, u32);
+
+/// What the acceleration structures of a scene use.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Usage {
+    /// Kinds of geometry, in order of first use.
+    pub kinds: Vec<GeometryKind>,
+    /// Levels of instances over a GAS: of every structure that was built.
+    pub depths: Vec<u32>,
+}
+
+/// A record's bytes, if it was given, and what keeps its views alive.
+#[derive(Clone, Default)]
+pub(crate) struct RecordData {
+    pub bytes: Option<Vec<u8>>,
+    pub keep: Vec<Arc<dyn Any + Send + Sync>>,
+}
+
+impl<P: Pipeline> Scene<P> {
+    /// An empty scene on a device.
+    pub fn new(device: &Device) -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(1);
+        let description = P::DESCRIPTION;
+        // A record without data needs no giving.
+        let record = |size: usize| RecordData { bytes: (size == 0).then(Vec::new), keep: Vec::new() };
+        Self {
+            device: device.clone(),
+            state: SceneState {
+                id: NEXT.fetch_add(1, Ordering::Relaxed),
+                materials: Vec::new(),
+                slots: Vec::new(),
+                slots_of: HashMap::new(),
+                miss: description.rays.iter().map(|ray| record(ray.miss.map_or(0, |m| m.record.size))).collect(),
+                raygen: description.raygen.iter().map(|rg| record(rg.record.size)).collect(),
+                usage: Usage::default(),
+            },
+            pipeline: PhantomData,
+        }
+    }
+
+    /// Gives the record of the miss program of rays `R`.
+    pub fn miss<R: Payload>(&mut self, record: <P::MissRecord as SbtRecord>::Host) -> Result<()>
+    where
+        P: HasRay<R>,
+    {
+        self.state.miss[<P as HasRay<R>>::INDEX as usize] = self.lower(&record)?;
+        Ok(())
+    }
+
+    /// Gives the record of ray-generation program `Prog`.
+    pub fn raygen<Prog>(&mut self, record: <P::Record as SbtRecord>::Host) -> Result<()>
+    where
+        P: HasRayGen<Prog>,
+    {
+        self.state.raygen[<P as HasRayGen<Prog>>::INDEX as usize] = self.lower(&record)?;
+        Ok(())
+    }
+
+    /// A record's device bytes, after a check that what it points to is on this scene's device.
+    pub(crate) fn lower<T: Twin>(&self, record: &T) -> Result<RecordData> {
+        let mut keep = KeepAlive::default();
+        let device_data = record.lower(&mut keep);
+        if let Some(what) = keep.foreign(self.device.backend.id()) {
+            return Err(Error::Scene(format!(
+                "a record holds a {what} of another device; make it with this scene's device"
+            )));
+        }
+        let mut bytes = vec![0; size_of::<T::Device>()];
+        device_data.write_to(&mut bytes);
+        Ok(RecordData { bytes: Some(bytes), keep: keep.into_owners() })
+    }
+}
+
+impl SceneState {
+    /// Where the records of a GAS whose build inputs have these materials begin; GASes with the same list share them.
+    pub(crate) fn slots_for(&mut self, materials: Vec<Slot>) -> u32 {
+        let slots = &mut self.slots;
+        *self.slots_of.entry(materials).or_insert_with_key(|materials| {
+            let first = slots.len() as u32;
+            slots.extend_from_slice(materials);
+            first
+        })
+    }
+}
+
+impl Usage {
+    fn add(&mut self, kind: GeometryKind) {
+        if !self.kinds.contains(&kind) {
+            self.kinds.push(kind);
+        }
+    }
+}

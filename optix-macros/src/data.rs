@@ -1,0 +1,184 @@
+//! `DeviceData`, with the host twin of structs that hold views.
+
+use crate::shape::{Form, Struct, construct};
+use crate::support::{Errors, allow, docs};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote, quote_spanned};
+use syn::spanned::Spanned;
+use syn::{DeriveInput, Ident};
+
+/// `#[derive(DeviceData)]`.
+pub fn derive(input: &DeriveInput) -> TokenStream {
+    let mut errors = Errors::default();
+    let Some(model) = Struct::parse(input, "device data", true, &mut errors) else {
+        return errors.into_tokens();
+    };
+    model.require_repr_c("device data", &mut errors);
+    let data = device_data(&model);
+    let twin = twin(&model, &mut errors);
+    let items = twin.items;
+    let errors = errors.into_tokens();
+    quote!(#errors #data #items)
+}
+
+/// The impl of `DeviceData`: each field at its offset.
+pub fn device_data(model: &Struct) -> TokenStream {
+    let (krate, ident, allow) = (&model.krate, &model.ident, allow());
+    let writes = model.fields.iter().map(|field| {
+        let (member, ty) = (&field.member, &field.ty);
+        let write = if field.view {
+            quote_spanned!(ty.span()=> <#ty as #krate::data::DeviceData>::write_to)
+        } else {
+            quote_spanned!(ty.span()=> <#ty as #krate::data::Plain>::write_plain)
+        };
+        quote! {{
+            const __AT: usize = ::core::mem::offset_of!(#ident, #member);
+            #write(&self.#member, &mut __bytes[__AT..__AT + ::core::mem::size_of::<#ty>()]);
+        }}
+    });
+    let touch = touch(model);
+    quote! {
+        #allow
+        const _: () = {
+            // SAFETY: the layout is C's, each field has a layout that host and device share, and padding is not written.
+            #[automatically_derived]
+            unsafe impl #krate::data::DeviceData for #ident {
+                #[inline]
+                fn write_to(&self, __bytes: &mut [u8]) {
+                    #(#writes)*
+                }
+            }
+            #touch
+        };
+    }
+}
+
+/// Uses every field, so that no lint calls a struct or field dead that only the other machine reads.
+pub fn touch(model: &Struct) -> TokenStream {
+    let ident = &model.ident;
+    let values: Vec<_> = model.fields.iter().map(|f| {
+        let member = &f.member;
+        quote!(__value.#member)
+    }).collect();
+    let rebuilt = construct(ident, &model.fields, &values);
+    quote! {
+        #[allow(dead_code)]
+        fn __touch(__value: #ident) -> #ident {
+            #rebuilt
+        }
+    }
+}
+
+/// The host twin: its type, and the items that make it.
+pub struct Twin {
+    pub host: Ident,
+    pub items: TokenStream,
+}
+
+/// The struct is its own twin, or has one in which owners stand in place of views.
+pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
+    let (krate, ident, vis, allow) = (&model.krate, &model.ident, &model.vis, allow());
+    if !model.has_views() {
+        let items = quote! {
+            #allow
+            const _: () = {
+                #[automatically_derived]
+                impl #krate::data::Plain for #ident {}
+                #[cfg(not(target_arch = "nvptx64"))]
+                #[automatically_derived]
+                impl #krate::host::Twin for #ident {
+                    type Device = #ident;
+                    #[inline]
+                    fn lower(&self, _: &mut #krate::host::KeepAlive) -> #ident {
+                        *self
+                    }
+                }
+            };
+        };
+        return Twin { host: ident.clone(), items };
+    }
+    if model.form == Form::Tuple {
+        errors.at(
+            ident,
+            format!("`{ident}` holds views of device memory, so its fields need names: its host twin has the same ones"),
+        );
+        return Twin { host: ident.clone(), items: TokenStream::new() };
+    }
+    let host = format_ident!("{}Host", model.name(), span = ident.span());
+    let fields = model.fields.iter().map(|field| {
+        let (vis, member, ty) = (&field.vis, &field.member, &field.ty);
+        let docs = docs_or(&field.attrs, || format!("Field `{}` of [`{}`].", field.name(), model.name()));
+        let ty = if field.view {
+            quote_spanned!(ty.span()=> <#ty as #krate::host::View>::Owner)
+        } else {
+            quote!(#ty)
+        };
+        quote!(#docs #vis #member: #ty)
+    });
+    let clones: Vec<_> = model.fields.iter().map(|field| {
+        let (member, ty) = (&field.member, &field.ty);
+        if field.view {
+            quote!(::core::clone::Clone::clone(&self.#member))
+        } else {
+            quote_spanned!(ty.span()=> self.#member)
+        }
+    }).collect();
+    let clone = construct(&host, &model.fields, &clones);
+    let lowered: Vec<_> = model.fields.iter().map(|field| {
+        let (member, ty) = (&field.member, &field.ty);
+        if field.view {
+            quote_spanned!(ty.span()=> <#ty as #krate::host::View>::of(&self.#member, __keep))
+        } else {
+            quote!(self.#member)
+        }
+    }).collect();
+    let lowered = construct(ident, &model.fields, &lowered);
+    let doc = format!(
+        "What an application fills in for a [`{}`]: in each view's place the owner of the memory it shows.",
+        model.name()
+    );
+    let items = quote! {
+        #[doc = #doc]
+        #[cfg(not(target_arch = "nvptx64"))]
+        #[allow(missing_docs, unreachable_pub, private_interfaces, dead_code)]
+        #vis struct #host {
+            #(#fields,)*
+        }
+        #[cfg(not(target_arch = "nvptx64"))]
+        #allow
+        const _: () = {
+            #[automatically_derived]
+            impl ::core::clone::Clone for #host {
+                fn clone(&self) -> Self {
+                    #clone
+                }
+            }
+            #[automatically_derived]
+            impl #krate::host::Twin for #host {
+                type Device = #ident;
+                fn lower(&self, __keep: &mut #krate::host::KeepAlive) -> #ident {
+                    #lowered
+                }
+            }
+            #[automatically_derived]
+            impl #krate::host::View for #ident {
+                type Owner = #host;
+                fn of(__owner: &#host, __keep: &mut #krate::host::KeepAlive) -> Self {
+                    #krate::host::Twin::lower(__owner, __keep)
+                }
+            }
+        };
+    };
+    Twin { host, items }
+}
+
+/// The user's doc comment, or another.
+pub fn docs_or(attributes: &[syn::Attribute], otherwise: impl FnOnce() -> String) -> TokenStream {
+    let docs = docs(attributes);
+    if docs.is_empty() {
+        let text = otherwise();
+        quote!(#[doc = #text])
+    } else {
+        quote!(#(#docs)*)
+    }
+}

@@ -1,0 +1,279 @@
+//! `#[launch_params]`.
+
+use crate::data::{device_data, docs_or, twin};
+use crate::shape::{Field, Repr, Struct};
+use crate::support::{Errors, allow, crate_argument, name, place};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote, quote_spanned};
+use syn::spanned::Spanned;
+use syn::{DeriveInput, Ident, Item, ItemStruct, Member};
+
+pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    let mut errors = Errors::default();
+    let krate = crate_argument(arguments, "launch_params", &mut errors);
+    let mut item = match syn::parse2::<Item>(item.clone()) {
+        Ok(Item::Struct(item)) => item,
+        Ok(other) => {
+            errors.at(&other, "`#[launch_params]` belongs on a struct: the values that every program of a launch sees");
+            let errors = errors.into_tokens();
+            return quote!(#errors #other);
+        }
+        Err(error) => {
+            errors.push(error);
+            let errors = errors.into_tokens();
+            return quote!(#errors #item);
+        }
+    };
+    let model = Struct::parse(&DeriveInput::from(item.clone()), "launch parameters", false, &mut errors);
+    strip(&mut item);
+    let Some(mut model) = model else {
+        let errors = errors.into_tokens();
+        return quote!(#errors #item);
+    };
+    model.krate = krate;
+    check(&model, &mut errors);
+    let data = device_data(&model);
+    let twin = twin(&model, &mut errors);
+    let (host, twin) = (twin.host, twin.items);
+    let bounds = bounds(&model);
+    let view = view(&model);
+    let params = launch_params(&model, &host);
+    let errors = errors.into_tokens();
+    let missing = missing_attributes(&item);
+    quote! {
+        #errors
+        #missing
+        #item
+        #data
+        #twin
+        #bounds
+        #view
+        #params
+    }
+}
+
+/// Takes out what only this macro understands.
+fn strip(item: &mut ItemStruct) {
+    for field in &mut item.fields {
+        field.attrs.retain(|a| !a.path().is_ident("bound") && !a.path().is_ident("view"));
+    }
+}
+
+/// `#[repr(C)]` and the derives that the struct does not have itself.
+fn missing_attributes(item: &ItemStruct) -> TokenStream {
+    let derived = |what: &str| {
+        item.attrs.iter().filter(|a| a.path().is_ident("derive")).any(|a| {
+            let mut found = false;
+            let _ = a.parse_nested_meta(|meta| {
+                found |= meta.path.segments.last().is_some_and(|s| s.ident == what);
+                Ok(())
+            });
+            found
+        })
+    };
+    let repr = (!Repr::of(&item.attrs).fixed).then(|| quote!(#[repr(C)]));
+    let clone = (!derived("Clone")).then(|| quote!(#[derive(::core::clone::Clone)]));
+    let copy = (!derived("Copy")).then(|| quote!(#[derive(::core::marker::Copy)]));
+    quote!(#repr #clone #copy)
+}
+
+fn check(model: &Struct, errors: &mut Errors) {
+    if let Some(packed) = Repr::of(&model.attrs).packed {
+        errors.at(packed, "launch parameters can't be packed: programs load each field at its own alignment");
+    }
+    for field in &model.fields {
+        if field.bound.is_some() && field.view {
+            errors.at(
+                &field.ty,
+                format!(
+                    "`{}` can't be `#[bound]`: a view is an address, which no two launches need share; bind numbers",
+                    field.name()
+                ),
+            );
+        }
+    }
+}
+
+fn ident_of(field: &Field) -> Option<&Ident> {
+    match &field.member {
+        Member::Named(ident) => Some(ident),
+        Member::Unnamed(_) => None,
+    }
+}
+
+fn field_value(model: &Struct, field: &Field) -> TokenStream {
+    let (krate, ident, member, ty) = (&model.krate, &model.ident, &field.member, &field.ty);
+    let (name, bound) = (field.name(), field.bound.is_some());
+    quote! {
+        #krate::params::Field {
+            name: #name,
+            offset: ::core::mem::offset_of!(#ident, #member),
+            size: ::core::mem::size_of::<#ty>(),
+            bound: #bound,
+        }
+    }
+}
+
+/// `Frame::MAX_BOUNCES` for `#[bound] max_bounces`.
+fn bounds(model: &Struct) -> TokenStream {
+    let (krate, ident, allow) = (&model.krate, &model.ident, allow());
+    let consts: Vec<_> = model.fields.iter().filter(|f| f.bound.is_some() && !f.view).filter_map(|field| {
+        let (vis, ty) = (&field.vis, &field.ty);
+        let name = format_ident!("{}", name(ident_of(field)?).to_uppercase(), span = field.member.span());
+        let doc = format!("Field `{}`, to bind to a constant when the pipeline is built.", field.name());
+        let value = field_value(model, field);
+        Some(quote! {
+            #[doc = #doc]
+            #vis const #name: #krate::params::Bound<#ident, #ty> = #krate::params::Bound::new(#value);
+        })
+    }).collect();
+    if consts.is_empty() {
+        return TokenStream::new();
+    }
+    quote! {
+        #allow
+        #[automatically_derived]
+        impl #ident {
+            #(#consts)*
+        }
+    }
+}
+
+/// What programs get from `params()`.
+fn view(model: &Struct) -> TokenStream {
+    let (krate, ident, vis, allow) = (&model.krate, &model.ident, &model.vis, allow());
+    let view = format_ident!("{}View", model.name(), span = ident.span());
+    let methods = model.fields.iter().map(|field| {
+        let (vis, member, ty) = (&field.vis, &field.member, &field.ty);
+        let docs = docs_or(&field.attrs, || format!("Field `{}` of [`{}`].", field.name(), model.name()));
+        let load = quote_spanned!(ty.span()=> #krate::machine::load_param::<
+            #ident, #ty, { ::core::mem::offset_of!(#ident, #member) }
+        >);
+        quote! {
+            #docs
+            #[inline(always)]
+            #[must_use]
+            #vis fn #member(self) -> #ty {
+                // SAFETY: the struct has this field at this offset.
+                unsafe { #load(self.__base) }
+            }
+        }
+    });
+    let doc = format!("What a program sees of [`{}`]: a method for each field, which loads that field.", model.name());
+    quote! {
+        #[doc = #doc]
+        #[allow(unreachable_pub)]
+        #vis struct #view<'a> {
+            #[doc(hidden)]
+            __base: #krate::machine::ParamsBase<'a, #ident>,
+        }
+
+        #allow
+        #[automatically_derived]
+        impl #view<'_> {
+            #(#methods)*
+        }
+
+        #allow
+        const _: () = {
+            #[automatically_derived]
+            impl ::core::clone::Clone for #view<'_> {
+                #[inline(always)]
+                fn clone(&self) -> Self {
+                    *self
+                }
+            }
+            #[automatically_derived]
+            impl ::core::marker::Copy for #view<'_> {}
+            #[automatically_derived]
+            impl<'a> ::core::convert::From<#krate::machine::ParamsBase<'a, #ident>> for #view<'a> {
+                #[inline(always)]
+                fn from(__base: #krate::machine::ParamsBase<'a, #ident>) -> Self {
+                    Self { __base }
+                }
+            }
+        };
+    }
+}
+
+/// `LaunchParams`, the constant-memory symbol, and the loads from it.
+fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
+    let (krate, ident, allow, name) = (&model.krate, &model.ident, allow(), model.name());
+    let view = format_ident!("{}View", name, span = ident.span());
+    let symbol = format!("optix_params_{name}_{}", place(ident.span(), &name));
+    let declare = format!(".visible .const .align {{a}} .b8 {symbol}[{{n}}];");
+    let (word, byte) = (format!("ld.const.b32 {{v}}, [{symbol}+{{at}}];"), format!("ld.const.u8 {{v}}, [{symbol}+{{at}}];"));
+    let address = format!("{{{{ .reg .b64 a; mov.b64 a, {symbol}; cvta.const.u64 {{v}}, a; }}}}");
+    let fields = model.fields.iter().map(|field| field_value(model, field));
+    quote! {
+        #allow
+        const _: () = {
+            #[automatically_derived]
+            impl #krate::params::LaunchParams for #ident {
+                const NAME: &'static str = #name;
+                const SYMBOL: &'static str = #symbol;
+                const FIELDS: &'static [#krate::params::Field] = &[#(#fields),*];
+                type View<'a> = #view<'a>;
+                #[cfg(not(target_arch = "nvptx64"))]
+                type Host = #host;
+            }
+
+            #[automatically_derived]
+            impl #krate::params::ParamsSymbol for #ident {
+                #[cfg(target_arch = "nvptx64")]
+                #[inline(always)]
+                fn word<const OFFSET: usize, const INDEX: usize>() -> u32 {
+                    let __value: u32;
+                    // SAFETY: reads a word of the symbol, which does not change while programs run.
+                    unsafe {
+                        ::core::arch::asm!(
+                            #word,
+                            v = out(reg32) __value,
+                            at = const OFFSET + 4 * INDEX,
+                            options(pure, nomem, nostack, preserves_flags),
+                        )
+                    };
+                    __value
+                }
+
+                #[cfg(target_arch = "nvptx64")]
+                #[inline(always)]
+                fn byte<const OFFSET: usize, const INDEX: usize>() -> u8 {
+                    let __value: u32;
+                    // SAFETY: reads a byte of the symbol, which does not change while programs run.
+                    unsafe {
+                        ::core::arch::asm!(
+                            #byte,
+                            v = out(reg32) __value,
+                            at = const OFFSET + INDEX,
+                            options(pure, nomem, nostack, preserves_flags),
+                        )
+                    };
+                    __value as u8
+                }
+
+                #[cfg(target_arch = "nvptx64")]
+                #[inline(always)]
+                fn address() -> *const u8 {
+                    let __value: u64;
+                    // SAFETY: takes the symbol's address.
+                    unsafe {
+                        ::core::arch::asm!(
+                            #address,
+                            v = out(reg64) __value,
+                            options(pure, nomem, nostack, preserves_flags),
+                        )
+                    };
+                    __value as *const u8
+                }
+            }
+
+            #[cfg(target_arch = "nvptx64")]
+            ::core::arch::global_asm!(
+                #declare,
+                a = const ::core::mem::align_of::<#ident>(),
+                n = const if ::core::mem::size_of::<#ident>() == 0 { 1 } else { ::core::mem::size_of::<#ident>() },
+            );
+        };
+    }
+}

@@ -1,0 +1,179 @@
+//! The parts of a payload and what ties them to it.
+
+use super::model::{Party, Payload};
+use crate::data::{docs_or, touch};
+use crate::support::allow;
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote, quote_spanned};
+use syn::spanned::Spanned;
+
+/// `RadianceAtMiss` and the like.
+struct Part {
+    party: Party,
+    reads: bool,
+    ident: Ident,
+    fields: Vec<usize>,
+}
+
+impl Part {
+    /// `AtMiss` and the like.
+    fn role(&self) -> Ident {
+        format_ident!("{}{}", if self.reads { "At" } else { "From" }, self.party.suffix())
+    }
+}
+
+pub fn emit(payload: &Payload) -> TokenStream {
+    let shape = &payload.shape;
+    let (krate, ident, allow, name) = (&shape.krate, &shape.ident, allow(), shape.name());
+    let parts: Vec<Part> = Party::ALL
+        .into_iter()
+        .flat_map(|party| [(party, false), (party, true)])
+        .map(|(party, reads)| {
+            let word = if reads { "At" } else { "From" };
+            let ident = format_ident!("{}{}{}", name, word, party.suffix(), span = ident.span());
+            Part { party, reads, ident, fields: payload.part(party, reads) }
+        })
+        .collect();
+
+    let structs = parts.iter().filter(|p| !p.fields.is_empty()).map(|part| part_struct(payload, part));
+    let impls = parts.iter().filter(|p| !p.fields.is_empty()).map(|part| part_impls(payload, part));
+    let types = parts.iter().map(|part| {
+        let role = part.role();
+        if part.fields.is_empty() {
+            quote!(type #role = ();)
+        } else {
+            let part = &part.ident;
+            quote!(type #role = #part;)
+        }
+    });
+
+    let (mut places, mut semantics) = (TokenStream::new(), TokenStream::new());
+    for (i, (field, access)) in shape.fields.iter().zip(&payload.access).enumerate() {
+        let ty = &field.ty;
+        let (at, count, next) = (format_ident!("__AT_{i}"), format_ident!("__COUNT_{i}"), format_ident!("__AT_{}", i + 1));
+        let words = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::COUNT);
+        places.extend(quote! {
+            const #count: usize = #words;
+            const #next: usize = #at + #count;
+        });
+        let bits = Party::ALL.into_iter().flat_map(|party| {
+            let bit = |word: &str| {
+                let name = format_ident!("{}_{}", party.keyword().to_uppercase(), word);
+                quote!(#krate::payload::semantics::#name)
+            };
+            let read = access.read.has(party).then(|| bit("READ"));
+            let write = access.write.has(party).then(|| bit("WRITE"));
+            [read, write]
+        });
+        let bits = bits.flatten();
+        semantics.extend(quote! {
+            let mut __i = #at;
+            while __i < #next {
+                __all[__i] = 0 #(| #bits)*;
+                __i += 1;
+            }
+        });
+    }
+    let end = format_ident!("__AT_{}", shape.fields.len());
+    let check = quote_spanned!(ident.span()=> const _: () = #krate::check::payload_words(#name, __WORDS););
+    let touch = touch(shape);
+
+    quote! {
+        #(#structs)*
+
+        #allow
+        const _: () = {
+            const __AT_0: usize = 0;
+            #places
+            const __WORDS: usize = #end;
+            #check
+
+            #[automatically_derived]
+            impl #krate::payload::Payload for #ident {
+                const NAME: &'static str = #name;
+                const WORDS: usize = __WORDS;
+                const SEMANTICS: &'static [u32] = &{
+                    let mut __all = [0u32; __WORDS];
+                    #semantics
+                    __all
+                };
+                #(#types)*
+            }
+            #(#impls)*
+            #touch
+        };
+    }
+}
+
+fn part_struct(payload: &Payload, part: &Part) -> TokenStream {
+    let (shape, name, ident) = (&payload.shape, payload.shape.name(), &part.ident);
+    let vis = &shape.vis;
+    let doc = match (part.party, part.reads) {
+        (Party::Caller, false) => format!("What the caller gives to `trace` with a ray of payload [`{name}`]."),
+        (Party::Caller, true) => format!("What `trace` returns of payload [`{name}`]."),
+        (party, true) => format!("What {} receives of payload [`{name}`].", party.phrase()),
+        (party, false) => format!("What {} must return of payload [`{name}`].", party.phrase()),
+    };
+    let fields = part.fields.iter().map(|&i| {
+        let field = &shape.fields[i];
+        let (vis, member, ty) = (&field.vis, &field.member, &field.ty);
+        let docs = docs_or(&field.attrs, || format!("Field `{}` of [`{name}`].", field.name()));
+        quote!(#docs #vis #member: #ty)
+    });
+    quote! {
+        #[doc = #doc]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+        #[allow(dead_code, unreachable_pub, private_interfaces, missing_docs)]
+        #vis struct #ident {
+            #(#fields,)*
+        }
+    }
+}
+
+fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
+    let shape = &payload.shape;
+    let (krate, payload_ident, ident, role) = (&shape.krate, &shape.ident, &part.ident, part.role());
+    let places = part.fields.iter().map(|i| (format_ident!("__AT_{i}"), format_ident!("__COUNT_{i}")));
+    let masks = places.clone().map(|(at, count)| quote!(#krate::payload::word_mask(#at, #count)));
+    let fields: Vec<_> = part.fields.iter().map(|&i| &shape.fields[i]).collect();
+    let loads = fields.iter().zip(places.clone()).map(|(field, (at, _))| {
+        let (member, ty) = (&field.member, &field.ty);
+        let load = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::load);
+        quote!(#member: #load(__words, #at))
+    });
+    let stores = fields.iter().zip(places).map(|(field, (at, _))| {
+        let (member, ty) = (&field.member, &field.ty);
+        let store = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::store);
+        quote!(#store(self.#member, __words, #at);)
+    });
+    quote! {
+        #[automatically_derived]
+        impl #krate::payload::Part for #ident {
+            const MASK: u32 = 0 #(| #masks)*;
+            #[inline(always)]
+            fn load(__words: &#krate::words::WordBuffer) -> Self {
+                Self { #(#loads),* }
+            }
+            #[inline(always)]
+            fn store(self, __words: &mut #krate::words::WordBuffer) {
+                #(#stores)*
+            }
+        }
+        #[automatically_derived]
+        impl #krate::payload::PartOf for #ident {
+            type Payload = #payload_ident;
+        }
+        #[automatically_derived]
+        impl #krate::check::PartFor<#krate::check::#role> for #ident {
+            type Payload = #payload_ident;
+            #[inline(always)]
+            fn take(__part: Self) -> Self {
+                __part
+            }
+            #[inline(always)]
+            fn give(self) -> Self {
+                self
+            }
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! What must hold of a pipeline before types come into it.
+
+use super::parse::{Geometry, Pipeline};
+use crate::support::Errors;
+use quote::ToTokens;
+use syn::Error;
+
+/// OptiX has eight payload types in a module (guide 14).
+const MAX_RAY_TYPES: usize = 8;
+/// The greatest trace depth (guide 6.7).
+const MAX_TRACE_DEPTH: u32 = 31;
+
+pub fn check(pipeline: &Pipeline, errors: &mut Errors) {
+    if pipeline.params.is_none() {
+        errors.at(
+            &pipeline.ident,
+            format!("pipeline `{}` has no launch parameters: add `params: Frame`, a struct with `#[launch_params]`", pipeline.ident),
+        );
+    }
+    if pipeline.raygen.is_empty() {
+        errors.at(
+            &pipeline.ident,
+            format!("pipeline `{}` has no ray-generation program, where a launch begins: add `raygen: [camera]`", pipeline.ident),
+        );
+    }
+    for (i, program) in pipeline.raygen.iter().enumerate() {
+        if pipeline.raygen[..i].iter().any(|p| text(p) == text(program)) {
+            errors.at(program, format!("ray-generation program `{}` is listed twice", path(program)));
+        }
+    }
+    rays(pipeline, errors);
+    groups(pipeline, errors);
+    if let Some(depth) = &pipeline.trace_depth {
+        match depth.base10_parse::<u32>() {
+            Ok(0..=MAX_TRACE_DEPTH) => {}
+            _ => errors.at(depth, format!("the trace depth is a number from 0 to {MAX_TRACE_DEPTH} (guide 6.7)")),
+        }
+    }
+}
+
+fn rays(pipeline: &Pipeline, errors: &mut Errors) {
+    for (i, ray) in pipeline.rays.iter().enumerate() {
+        if pipeline.rays[..i].iter().any(|r| text(&r.payload) == text(&ray.payload)) {
+            let name = path(&ray.payload);
+            errors.at(
+                &ray.payload,
+                format!(
+                    "ray type `{name}` is listed twice: a ray type is named by its payload; for two ray types with the same \
+                     fields declare two payload structs (that costs nothing)"
+                ),
+            );
+        }
+    }
+    if let Some(ray) = pipeline.rays.get(MAX_RAY_TYPES) {
+        errors.at(
+            &ray.payload,
+            format!(
+                "a pipeline has {MAX_RAY_TYPES} ray types at most, one for each payload type that a module may have (guide \
+                 14); this one lists {}",
+                pipeline.rays.len()
+            ),
+        );
+    }
+}
+
+fn groups(pipeline: &Pipeline, errors: &mut Errors) {
+    for (i, group) in pipeline.groups.iter().enumerate() {
+        let (record, geometry) = (path(&group.record), group.geometry.name());
+        let twice = |g: &super::parse::Group| g.geometry == group.geometry && text(&g.record) == text(&group.record);
+        if pipeline.groups[..i].iter().any(twice) {
+            errors.at(
+                &group.record,
+                format!(
+                    "hit group `{record} on {geometry}` is listed twice: a material is named by its record; for two \
+                     materials with the same data declare two record structs"
+                ),
+            );
+        }
+        for (j, programs) in group.rays.iter().enumerate() {
+            let ray = path(&programs.ray);
+            if group.rays[..j].iter().any(|p| text(&p.ray) == text(&programs.ray)) {
+                errors.at(&programs.ray, format!("ray type `{ray}` is twice in hit group `{record} on {geometry}`"));
+            }
+            if !pipeline.rays.iter().any(|r| text(&r.payload) == text(&programs.ray)) {
+                errors.at(
+                    &programs.ray,
+                    format!("`{ray}` is not among the `rays` of `{}`: add `{ray} {{ miss: .. }}` there", pipeline.ident),
+                );
+            }
+            match (group.geometry, &programs.intersection) {
+                (Geometry::Custom, None) => errors.at(
+                    &programs.ray,
+                    format!(
+                        "hit group `{record} on Custom` has no intersection program for ray type `{ray}`, so `{ray}` rays \
+                         could not see it: add `intersection: ..`"
+                    ),
+                ),
+                (Geometry::Triangles, Some(program)) => errors.at(
+                    program,
+                    format!(
+                        "`{record} on Triangles` can't have an intersection program: triangles are intersected by \
+                         hardware; remove it, or write `{record} on Custom`"
+                    ),
+                ),
+                _ => {}
+            }
+        }
+        let missing: Vec<String> = pipeline
+            .rays
+            .iter()
+            .filter(|r| !group.rays.iter().any(|p| text(&p.ray) == text(&r.payload)))
+            .map(|r| path(&r.payload))
+            .collect();
+        if !missing.is_empty() {
+            let inner = if group.geometry == Geometry::Custom { " { intersection: .. }" } else { " {}" };
+            let entries: Vec<String> = missing.iter().map(|ray| format!("{ray}{inner}")).collect();
+            errors.push(Error::new(
+                group.span,
+                format!(
+                    "hit group `{record} on {geometry}` does not say what happens to ray type `{}`: add `{}`{}",
+                    missing.join("`, `"),
+                    entries.join(", "),
+                    if group.geometry == Geometry::Custom { "" } else { ", or name programs in the braces" },
+                ),
+            ));
+        }
+    }
+}
+
+/// For comparisons.
+pub fn text(tokens: &impl ToTokens) -> String {
+    tokens.to_token_stream().to_string()
+}
+
+/// As written.
+pub fn path(tokens: &impl ToTokens) -> String {
+    text(tokens).replace(" :: ", "::").replace(":: ", "::").replace(" < ", "<").replace(" >", ">").replace("< ", "<")
+}

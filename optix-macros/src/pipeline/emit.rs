@@ -1,0 +1,321 @@
+//! The pipeline type, its description for the host, and the entry points of both machines.
+
+use super::check::path;
+use super::parse::{Geometry, Group, Pipeline, Programs};
+use crate::program::Kind;
+use crate::support::{allow, name, place};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{ToTokens, format_ident, quote, quote_spanned};
+use syn::Path;
+use syn::spanned::Spanned;
+
+/// Entry points, as they are needed.
+struct Entries<'a> {
+    pipeline: &'a Pipeline,
+    place: String,
+    items: TokenStream,
+    names: Vec<String>,
+}
+
+impl Entries<'_> {
+    /// Makes the entry of a program on both machines; gives the host's `Entry`.
+    fn add(&mut self, kind: Kind, program: &Path, types: &TokenStream, of: &[String]) -> TokenStream {
+        let krate = &self.pipeline.krate;
+        let mut stem = format!("__{}__{}_{}", kind.attribute(), name(&self.pipeline.ident), symbol(program));
+        for part in of {
+            stem.push('_');
+            stem.push_str(part);
+        }
+        // Paths that differ in punctuation only.
+        let count = self.names.iter().filter(|n| **n == stem).count();
+        self.names.push(stem.clone());
+        if count > 0 {
+            stem.push_str(&format!("_{}", count + 1));
+        }
+        let entry_name = format!("{stem}_{}", self.place);
+        let device = format_ident!("{entry_name}");
+        let host = format_ident!("__run_{}", self.names.len() - 1);
+        let body = format_ident!("{}", kind.attribute());
+        let call = quote_spanned!(program.span()=> #krate::program::entry::#body::<#types #program>);
+        self.items.extend(quote! {
+            // SAFETY: the caller's frame is of this program.
+            #[cfg(not(target_arch = "nvptx64"))]
+            unsafe fn #host(__frame: &#krate::host::Frame<'_>) -> #krate::ray::Decision {
+                unsafe { #call(#krate::machine::Cx::new(__frame)) }
+            }
+            // SAFETY: OptiX calls it as a program of its kind, with the record and payload of its hit group or ray type.
+            #[cfg(target_arch = "nvptx64")]
+            #[unsafe(no_mangle)]
+            pub unsafe extern "ptx-kernel" fn #device() {
+                let _ = unsafe { #call(#krate::machine::Cx::new()) };
+            }
+        });
+        let function = path(program);
+        quote!(#krate::host::Entry { name: #entry_name, function: #function, run: #host })
+    }
+}
+
+/// A path as part of a symbol.
+fn symbol(path: &impl ToTokens) -> String {
+    let text = super::check::path(path).replace("r#", "");
+    let mut symbol = String::new();
+    for c in text.chars() {
+        let c = if c.is_ascii_alphanumeric() { c } else { '_' };
+        if c != '_' || !symbol.ends_with('_') {
+            symbol.push(c);
+        }
+    }
+    symbol.trim_matches('_').to_owned()
+}
+
+fn option(value: Option<TokenStream>) -> TokenStream {
+    match value {
+        Some(value) => quote!(::core::option::Option::Some(#value)),
+        None => quote!(::core::option::Option::None),
+    }
+}
+
+fn structure(pipeline: &Pipeline) -> TokenStream {
+    let Pipeline { attrs, vis, ident, .. } = pipeline;
+    quote! {
+        #(#attrs)*
+        #[allow(dead_code, unreachable_pub)]
+        #vis struct #ident;
+    }
+}
+
+pub fn emit(pipeline: &Pipeline) -> TokenStream {
+    let Pipeline { ident, krate, params, .. } = pipeline;
+    let pipeline_name = name(ident);
+    let (structure, allow) = (structure(pipeline), allow());
+    let mut entries = Entries {
+        pipeline,
+        place: place(ident.span(), &pipeline_name),
+        items: TokenStream::new(),
+        names: Vec::new(),
+    };
+    let mut impls = TokenStream::new();
+
+    let raygen: Vec<_> = pipeline.raygen.iter().enumerate().map(|(i, program)| {
+        let entry = entries.add(Kind::RayGen, program, &quote!(#ident,), &[]);
+        let record = quote_spanned!(program.span()=> <#program as #krate::program::RayGenProgram<#ident>>::Record);
+        let index = i as u32;
+        impls.extend(quote! {
+            #[automatically_derived]
+            impl #krate::pipeline::HasRayGen<#program> for #ident {
+                const INDEX: u32 = #index;
+                type Record = #record;
+            }
+        });
+        quote!(#krate::host::ProgramDescription { entry: #entry, record: #krate::host::RecordLayout::of::<#record>() })
+    }).collect();
+
+    let rays: Vec<_> = pipeline.rays.iter().map(|ray| {
+        let payload = &ray.payload;
+        let miss = ray.miss.as_ref().map(|program| {
+            let entry = entries.add(Kind::Miss, program, &quote!(#ident, #payload,), &[symbol(payload)]);
+            let record = miss_record(pipeline, payload, Some(program));
+            quote!(#krate::host::ProgramDescription { entry: #entry, record: #krate::host::RecordLayout::of::<#record>() })
+        });
+        if miss.is_none() {
+            impls.extend(nothing_to_write(krate, payload, "FromMiss"));
+        }
+        let miss = option(miss);
+        quote! {
+            #krate::host::RayDescription { payload: #krate::host::PayloadDescription::of::<#payload>(), miss: #miss }
+        }
+    }).collect();
+    impls.extend(has_rays(pipeline));
+
+    let mut groups = Vec::new();
+    for (i, group) in pipeline.groups.iter().enumerate() {
+        let (record, index) = (&group.record, i as u32);
+        let geometry = format_ident!("{}", group.geometry.name(), span = group.geometry_span);
+        impls.extend(quote! {
+            #[automatically_derived]
+            impl #krate::pipeline::HasHitGroup<#record, #krate::attributes::#geometry> for #ident {
+                const INDEX: u32 = #index;
+            }
+        });
+        groups.push(describe_group(pipeline, group, &mut entries, &mut impls));
+    }
+
+    let ray_types = pipeline.rays.len() as u32;
+    let depth = option(pipeline.trace_depth.as_ref().map(|depth| depth.to_token_stream()));
+    let items = entries.items;
+    quote! {
+        #structure
+        #allow
+        const _: () = {
+            #[automatically_derived]
+            impl #krate::pipeline::Pipeline for #ident {
+                type Params = #params;
+                const RAY_TYPES: u32 = #ray_types;
+                #[cfg(not(target_arch = "nvptx64"))]
+                const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
+                    name: #pipeline_name,
+                    params: #krate::host::ParamsDescription::of::<#params>(),
+                    raygen: &[#(#raygen),*],
+                    rays: &[#(#rays),*],
+                    hitgroups: &[#(#groups),*],
+                    trace_depth: #depth,
+                };
+            }
+            #impls
+            #items
+        };
+    }
+}
+
+/// A hit group's description, with its entries and checks.
+fn describe_group(pipeline: &Pipeline, group: &Group, entries: &mut Entries<'_>, impls: &mut TokenStream) -> TokenStream {
+    let (ident, krate, record) = (&pipeline.ident, &pipeline.krate, &group.record);
+    let hits_of = |programs: &Programs| match &programs.intersection {
+        Some(program) => {
+            let ray = &programs.ray;
+            quote_spanned! {program.span()=>
+                <#program as #krate::program::IntersectionProgram<#ident, #record, #ray>>::Attributes
+            }
+        }
+        None => quote!(#krate::attributes::Triangles),
+    };
+    let mut first: Option<&Programs> = None;
+    // In the order of `rays`, which is the order of the records.
+    let rays: Vec<_> = pipeline.rays.iter().filter_map(|ray| {
+        let programs = group.rays.iter().find(|p| super::check::text(&p.ray) == super::check::text(&ray.payload))?;
+        let (ray, hits) = (&programs.ray, hits_of(programs));
+        match (first, &programs.intersection) {
+            (Some(first), Some(program)) => {
+                if first.intersection.as_ref().is_some_and(|f| super::check::text(f) != super::check::text(program)) {
+                    let other = hits_of(first);
+                    impls.extend(quote_spanned! {program.span()=>
+                        const _: () = #krate::check::same_hits::<#hits, #other>();
+                    });
+                }
+            }
+            _ => first = Some(programs),
+        }
+        if programs.closesthit.is_none() {
+            impls.extend(nothing_to_write(krate, ray, "FromClosestHit"));
+        }
+        let mut of = vec![symbol(record), symbol(ray)];
+        if group.geometry == Geometry::Custom {
+            of.push("Custom".to_owned());
+        }
+        let mut entry = |kind: Kind| {
+            let program = programs.get(kind)?;
+            let types = if kind == Kind::Intersection {
+                quote!(#ident, #record, #ray,)
+            } else {
+                quote!(#ident, #hits, #record, #ray,)
+            };
+            Some(entries.add(kind, program, &types, &of))
+        };
+        let closesthit = option(entry(Kind::ClosestHit));
+        let anyhit = option(entry(Kind::AnyHit));
+        let intersection = option(entry(Kind::Intersection));
+        Some(quote! {
+            #krate::host::HitPrograms { closesthit: #closesthit, anyhit: #anyhit, intersection: #intersection }
+        })
+    }).collect();
+    let geometry = format_ident!("{}", group.geometry.name());
+    let words = match first {
+        Some(programs) => {
+            let hits = hits_of(programs);
+            quote!(<#hits as #krate::attributes::Attributes>::WORDS)
+        }
+        None => quote!(0),
+    };
+    quote! {
+        #krate::host::HitGroupDescription {
+            record: #krate::host::RecordLayout::of::<#record>(),
+            geometry: #krate::attributes::GeometryKind::#geometry,
+            attribute_words: #words,
+            rays: &[#(#rays),*],
+        }
+    }
+}
+
+/// `<sky as MissProgram<..>>::Record`, or `()` without a miss program.
+fn miss_record(pipeline: &Pipeline, payload: &syn::Type, program: Option<&Path>) -> TokenStream {
+    let (ident, krate) = (&pipeline.ident, &pipeline.krate);
+    match program {
+        Some(program) => {
+            quote_spanned!(program.span()=> <#program as #krate::program::MissProgram<#ident, #payload>>::Record)
+        }
+        None => quote!(()),
+    }
+}
+
+fn has_rays(pipeline: &Pipeline) -> TokenStream {
+    let (ident, krate) = (&pipeline.ident, &pipeline.krate);
+    let impls = pipeline.rays.iter().enumerate().map(|(i, ray)| {
+        let (payload, index) = (&ray.payload, i as u32);
+        let record = miss_record(pipeline, payload, ray.miss.as_ref());
+        quote! {
+            #[automatically_derived]
+            impl #krate::pipeline::HasRay<#payload> for #ident {
+                const INDEX: u32 = #index;
+                type MissRecord = #record;
+            }
+        }
+    });
+    quote!(#(#impls)*)
+}
+
+/// Asserts that no program is missing here.
+fn nothing_to_write(krate: &Path, payload: &syn::Type, role: &str) -> TokenStream {
+    let span: Span = payload.span();
+    let role: Ident = format_ident!("{role}");
+    quote_spanned! {span=>
+        const _: () = #krate::check::nothing_to_write::<<#payload as #krate::payload::Payload>::#role>();
+    }
+}
+
+/// After an error: the pipeline with its ray types, so that its programs have nothing to complain about.
+pub fn fallback(pipeline: &Pipeline) -> TokenStream {
+    let Pipeline { ident, krate, params, .. } = pipeline;
+    let (structure, allow) = (structure(pipeline), allow());
+    let Some(params) = params else {
+        return structure;
+    };
+    let pipeline_name = name(ident);
+    let mut seen = Vec::new();
+    let rays = pipeline.rays.iter().filter(|ray| {
+        let text = super::check::text(&ray.payload);
+        let new = !seen.contains(&text);
+        seen.push(text);
+        new
+    });
+    let rays = rays.enumerate().map(|(i, ray)| {
+        let (payload, index) = (&ray.payload, i as u32);
+        quote! {
+            #[automatically_derived]
+            impl #krate::pipeline::HasRay<#payload> for #ident {
+                const INDEX: u32 = #index;
+                type MissRecord = ();
+            }
+        }
+    });
+    quote! {
+        #structure
+        #allow
+        const _: () = {
+            #[automatically_derived]
+            impl #krate::pipeline::Pipeline for #ident {
+                type Params = #params;
+                const RAY_TYPES: u32 = 0;
+                #[cfg(not(target_arch = "nvptx64"))]
+                const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
+                    name: #pipeline_name,
+                    params: #krate::host::ParamsDescription::of::<#params>(),
+                    raygen: &[],
+                    rays: &[],
+                    hitgroups: &[],
+                    trace_depth: ::core::option::Option::None,
+                };
+            }
+            #(#rays)*
+        };
+    }
+}

@@ -1,0 +1,212 @@
+//! The type that stands for a program, and its impl of the program trait.
+
+use super::model::{Kind, Program};
+use crate::support::allow;
+use proc_macro2::TokenStream;
+use quote::{ToTokens, format_ident, quote, quote_spanned};
+use syn::spanned::Spanned;
+use syn::{GenericParam, Generics, Ident, Path};
+
+/// The type of the program's name. It is public even where the function is not: a pipeline names it in public impls.
+fn marker(ident: &Ident) -> TokenStream {
+    quote! {
+        #[doc(hidden)]
+        #[allow(non_camel_case_types, unreachable_pub, dead_code, missing_docs)]
+        pub struct #ident {}
+    }
+}
+
+/// The trait for the kind.
+fn program_trait(kind: Kind) -> Ident {
+    format_ident!("{}Program", kind.context())
+}
+
+pub fn emit(program: &Program) -> TokenStream {
+    let Program { kind, krate, ident, pipeline, .. } = program;
+    let (marker, allow) = (marker(ident), allow());
+    let (trait_name, context) = (program_trait(*kind), format_ident!("{}", kind.context()));
+    let payload_trait = quote!(#krate::payload::Payload);
+
+    let mut generics = without_defaults(&program.generics);
+    let mut bounds: Vec<TokenStream> = Vec::new();
+
+    // Record: what the program names, else whatever the hit group has.
+    let record = match &program.record {
+        Some(record) => record.to_token_stream(),
+        None if kind.has_hits() => {
+            generics.params.push(syn::parse_quote!(__Rec: #krate::record::SbtRecord));
+            quote!(__Rec)
+        }
+        None => quote!(()),
+    };
+    // Payload: that of the part it receives or returns, else any that asks for nothing.
+    let payload = match (kind.roles(), &program.input, &program.output) {
+        (None, ..) => quote!(()),
+        (Some((at, _)), Some(input), _) => {
+            quote_spanned!(input.span()=> <#input as #krate::check::PartFor<#krate::check::#at>>::Payload)
+        }
+        (Some((_, from)), None, Some(output)) => {
+            quote_spanned!(output.span()=> <#output as #krate::check::PartFor<#krate::check::#from>>::Payload)
+        }
+        (Some((_, from)), None, None) => {
+            generics.params.push(syn::parse_quote!(__R: #payload_trait));
+            bounds.push(quote!(<__R as #payload_trait>::#from: #krate::check::MayReturnNothing));
+            quote!(__R)
+        }
+    };
+
+    // The call.
+    let record_argument = program.record.as_ref().map(|_| quote!(, __record));
+    let input_argument = program.input.as_ref().zip(kind.roles()).map(|(input, (at, _))| {
+        let take = quote_spanned!(input.span()=> <#input as #krate::check::PartFor<#krate::check::#at>>::take);
+        quote!(, #take(__input))
+    });
+    let call = quote!(#ident(__cx #record_argument #input_argument));
+    let nothing = kind.roles().map(|(_, from)| {
+        quote_spanned! {ident.span()=>
+            <<#payload as #payload_trait>::#from as #krate::check::MayReturnNothing>::nothing()
+        }
+    });
+    let give = program.output.as_ref().zip(kind.roles()).map(|(output, (_, from))| {
+        quote_spanned!(output.span()=> <#output as #krate::check::PartFor<#krate::check::#from>>::give)
+    });
+    let body = match (kind, give) {
+        (Kind::RayGen, _) => quote!(#call;),
+        (Kind::AnyHit, Some(give)) => quote! {
+            let (__decision, __part) = #call;
+            (__decision, #give(__part))
+        },
+        (Kind::AnyHit, None) if program.returns_unit_part => quote!(#call),
+        (Kind::AnyHit, None) => quote!((#call, #nothing)),
+        (_, Some(give)) => quote!(#give(#call)),
+        (_, None) => quote! {
+            #call;
+            #nothing
+        },
+    };
+
+    let hits = program.hits.as_ref();
+    let (trait_arguments, context_arguments, assoc) = match kind {
+        Kind::RayGen => (quote!(#pipeline), quote!(#pipeline), quote!(type Record = #record;)),
+        Kind::Miss => (quote!(#pipeline, #payload), quote!(#pipeline), quote!(type Record = #record;)),
+        Kind::ClosestHit | Kind::AnyHit => {
+            (quote!(#pipeline, #hits, #record, #payload), quote!(#pipeline, #hits), TokenStream::new())
+        }
+        Kind::Intersection => {
+            (quote!(#pipeline, #record, #payload), quote!(#pipeline, #hits), quote!(type Attributes = #hits;))
+        }
+    };
+    let (input, output) = match kind.roles() {
+        None => (TokenStream::new(), TokenStream::new()),
+        Some((at, from)) => {
+            let part = |role: &Ident| quote!(<#payload as #payload_trait>::#role);
+            let (input, output) = (part(&at), part(&from));
+            let decision = quote!(#krate::ray::Decision);
+            let output = if *kind == Kind::AnyHit { quote!((#decision, #output)) } else { output };
+            (quote!(, __input: #input), quote!(-> #output))
+        }
+    };
+    if !bounds.is_empty() {
+        let clause = generics.make_where_clause();
+        for bound in bounds {
+            clause.predicates.push(syn::parse_quote!(#bound));
+        }
+    }
+    let (impl_generics, _, where_clause) = generics.split_for_impl();
+    quote! {
+        #marker
+        #allow
+        const _: () = {
+            #[automatically_derived]
+            impl #impl_generics #krate::program::#trait_name<#trait_arguments> for #ident #where_clause {
+                #assoc
+                #[inline(always)]
+                fn run(__cx: &#krate::program::#context<#context_arguments>, __record: &#record #input) #output {
+                    #body
+                }
+            }
+        };
+    }
+}
+
+/// Type parameters of a function may have no defaults, nor may those of an impl.
+fn without_defaults(generics: &Generics) -> Generics {
+    let mut generics = generics.clone();
+    for parameter in &mut generics.params {
+        if let GenericParam::Type(parameter) = parameter {
+            parameter.default = None;
+        }
+    }
+    generics
+}
+
+/// For a program with errors: fits everywhere, so that nothing else is reported.
+pub fn fallback(kind: Kind, krate: &Path, ident: &Ident) -> TokenStream {
+    let (marker, trait_name, allow) = (marker(ident), program_trait(kind), allow());
+    let pipeline = quote!(__P: #krate::pipeline::Pipeline);
+    let hits = quote!(__A: #krate::attributes::Attributes);
+    let record = quote!(__Rec: #krate::record::SbtRecord);
+    let payload = quote!(__R: #krate::payload::Payload);
+    let at = |role: &str| {
+        let role = format_ident!("{role}");
+        quote!(<__R as #krate::payload::Payload>::#role)
+    };
+    let (generics, arguments, assoc, signature) = match kind {
+        Kind::RayGen => (
+            quote!(#pipeline),
+            quote!(__P),
+            quote!(type Record = ();),
+            quote!((_: &#krate::program::RayGen<__P>, _: &())),
+        ),
+        Kind::Miss => {
+            let (at, from) = (at("AtMiss"), at("FromMiss"));
+            (
+                quote!(#pipeline, #payload),
+                quote!(__P, __R),
+                quote!(type Record = ();),
+                quote!((_: &#krate::program::Miss<__P>, _: &(), _: #at) -> #from),
+            )
+        }
+        Kind::ClosestHit => {
+            let (at, from) = (at("AtClosestHit"), at("FromClosestHit"));
+            (
+                quote!(#pipeline, #hits, #record, #payload),
+                quote!(__P, __A, __Rec, __R),
+                TokenStream::new(),
+                quote!((_: &#krate::program::ClosestHit<__P, __A>, _: &__Rec, _: #at) -> #from),
+            )
+        }
+        Kind::AnyHit => {
+            let (at, from) = (at("AtAnyHit"), at("FromAnyHit"));
+            (
+                quote!(#pipeline, #hits, #record, #payload),
+                quote!(__P, __A, __Rec, __R),
+                TokenStream::new(),
+                quote!((_: &#krate::program::AnyHit<__P, __A>, _: &__Rec, _: #at) -> (#krate::ray::Decision, #from)),
+            )
+        }
+        Kind::Intersection => {
+            let (at, from) = (at("AtIntersection"), at("FromIntersection"));
+            let hits = quote!(#krate::attributes::Triangles);
+            (
+                quote!(#pipeline, #record, #payload),
+                quote!(__P, __Rec, __R),
+                quote!(type Attributes = #hits;),
+                quote!((_: &#krate::program::Intersection<__P, #hits>, _: &__Rec, _: #at) -> #from),
+            )
+        }
+    };
+    quote! {
+        #marker
+        #allow
+        const _: () = {
+            #[automatically_derived]
+            impl<#generics> #krate::program::#trait_name<#arguments> for #ident {
+                #assoc
+                fn run #signature {
+                    loop {}
+                }
+            }
+        };
+    }
+}

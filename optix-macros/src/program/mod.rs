@@ -1,0 +1,46 @@
+//! `#[raygen]`, `#[miss]`, `#[closesthit]`, `#[anyhit]`, `#[intersection]`.
+
+mod emit;
+mod model;
+
+pub use model::Kind;
+
+use crate::support::{Errors, crate_argument};
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::Item;
+
+pub fn expand(kind: Kind, arguments: TokenStream, item: TokenStream) -> TokenStream {
+    let mut errors = Errors::default();
+    let krate = crate_argument(arguments, kind.attribute(), &mut errors);
+    let function = match syn::parse2::<Item>(item.clone()) {
+        Ok(Item::Fn(function)) => function,
+        Ok(other) => {
+            let message = format!("`#[{}]` belongs on a function: {}", kind.attribute(), kind.example());
+            errors.at(&other, message);
+            let errors = errors.into_tokens();
+            return quote!(#errors #item);
+        }
+        Err(error) => {
+            errors.push(error);
+            let errors = errors.into_tokens();
+            return quote!(#errors #item);
+        }
+    };
+    let program = model::Program::new(kind, krate.clone(), &function, &mut errors);
+    let items = match program {
+        Some(program) if errors.is_empty() => emit::emit(&program),
+        // The pipeline must not complain about the program again.
+        _ => emit::fallback(kind, &krate, &function.sig.ident),
+    };
+    let errors = errors.into_tokens();
+    // Entries call it from another codegen unit, often with constants.
+    let inline = (!function.attrs.iter().any(|a| a.path().is_ident("inline")))
+        .then(|| quote!(#[cfg_attr(target_arch = "nvptx64", inline)]));
+    quote! {
+        #errors
+        #inline
+        #function
+        #items
+    }
+}

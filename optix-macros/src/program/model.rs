@@ -1,0 +1,418 @@
+//! What a program's signature says.
+
+use crate::support::{Errors, ungroup};
+use proc_macro2::{TokenStream, TokenTree};
+use quote::ToTokens;
+use syn::{
+    Error, FnArg, GenericArgument, GenericParam, Generics, Ident, ItemFn, Path, PathArguments, ReturnType, Safety, Type,
+    TypeReference,
+};
+
+/// The kinds of program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    RayGen,
+    Miss,
+    ClosestHit,
+    AnyHit,
+    Intersection,
+}
+
+impl Kind {
+    pub const ALL: [Self; 5] = [Self::RayGen, Self::Miss, Self::ClosestHit, Self::AnyHit, Self::Intersection];
+
+    /// The attribute, and the key in `pipeline!`.
+    pub fn attribute(self) -> &'static str {
+        match self {
+            Self::RayGen => "raygen",
+            Self::Miss => "miss",
+            Self::ClosestHit => "closesthit",
+            Self::AnyHit => "anyhit",
+            Self::Intersection => "intersection",
+        }
+    }
+
+    /// The context type, and the suffix of payload parts.
+    pub fn context(self) -> &'static str {
+        match self {
+            Self::RayGen => "RayGen",
+            Self::Miss => "Miss",
+            Self::ClosestHit => "ClosestHit",
+            Self::AnyHit => "AnyHit",
+            Self::Intersection => "Intersection",
+        }
+    }
+
+    /// In a sentence.
+    pub fn phrase(self) -> &'static str {
+        match self {
+            Self::RayGen => "a ray-generation program",
+            Self::Miss => "a miss program",
+            Self::ClosestHit => "a closest-hit program",
+            Self::AnyHit => "an any-hit program",
+            Self::Intersection => "an intersection program",
+        }
+    }
+
+    /// Whether the context says what hits carry.
+    pub fn has_hits(self) -> bool {
+        matches!(self, Self::ClosestHit | Self::AnyHit | Self::Intersection)
+    }
+
+    /// The context as a user writes it.
+    pub fn context_example(self) -> &'static str {
+        match self {
+            Self::RayGen => "&RayGen<PathTracer>",
+            Self::Miss => "&Miss<PathTracer>",
+            Self::ClosestHit => "&ClosestHit<PathTracer, Triangles>",
+            Self::AnyHit => "&AnyHit<PathTracer, Triangles>",
+            Self::Intersection => "&Intersection<PathTracer, BallHit>",
+        }
+    }
+
+    /// A signature.
+    pub fn example(self) -> &'static str {
+        match self {
+            Self::RayGen => "`fn camera(rg: &RayGen<PathTracer>)`",
+            Self::Miss => "`fn sky(ms: &Miss<PathTracer>, record: &Sky, ray: RadianceAtMiss) -> RadianceFromMiss`",
+            Self::ClosestHit => {
+                "`fn lambert(hit: &ClosestHit<PathTracer, Triangles>, record: &Lambert, ray: RadianceAtClosestHit) -> \
+                 RadianceFromClosestHit`"
+            }
+            Self::AnyHit => "`fn alpha(hit: &AnyHit<PathTracer, Triangles>, record: &Leaf) -> Decision`",
+            Self::Intersection => "`fn ball(isect: &Intersection<PathTracer, BallHit>, record: &Ball)`",
+        }
+    }
+}
+
+/// A program.
+pub struct Program {
+    pub kind: Kind,
+    pub krate: Path,
+    pub ident: Ident,
+    pub generics: Generics,
+    /// First argument of the context.
+    pub pipeline: Type,
+    /// Second argument of the context.
+    pub hits: Option<Type>,
+    pub record: Option<Type>,
+    /// The payload part it receives.
+    pub input: Option<Type>,
+    /// The payload part it returns.
+    pub output: Option<Type>,
+    /// An any-hit program that returns `(Decision, ())`.
+    pub returns_unit_part: bool,
+}
+
+impl Program {
+    /// Reads a signature.
+    pub fn new(kind: Kind, krate: Path, function: &ItemFn, errors: &mut Errors) -> Option<Self> {
+        let sig = &function.sig;
+        qualifiers(kind, function, errors);
+        let mut arguments = sig.inputs.iter();
+        let context = arguments.next();
+        let Some(context) = context else {
+            let message = format!(
+                "{} takes its context first: `{}: {}`",
+                kind.phrase(),
+                argument_name(kind),
+                kind.context_example()
+            );
+            errors.push(Error::new(sig.paren_token.span.join(), message));
+            return None;
+        };
+        let context = context_type(kind, context, errors);
+        let mut typed = Vec::new();
+        for argument in arguments {
+            match argument {
+                FnArg::Typed(argument) => typed.push(&*argument.ty),
+                FnArg::Receiver(receiver) => errors.at(receiver, "a program has no `self`"),
+            }
+        }
+        let (record, input) = record_and_payload(kind, &typed, errors);
+        let output = output(kind, &sig.output, sig, errors);
+        let returns_unit_part = output.is_none()
+            && matches!(&sig.output, ReturnType::Type(_, ty) if matches!(ungroup(ty), Type::Tuple(t) if t.elems.len() == 2));
+        let (pipeline, hits) = context?;
+        let program = Self {
+            kind,
+            krate,
+            ident: sig.ident.clone(),
+            generics: sig.generics.clone(),
+            pipeline,
+            hits,
+            record,
+            input,
+            output,
+            returns_unit_part,
+        };
+        program.check_generics(errors);
+        Some(program)
+    }
+
+    /// Every parameter must follow from the types that `pipeline!` knows.
+    fn check_generics(&self, errors: &mut Errors) {
+        for parameter in &self.generics.params {
+            let (ident, tokens) = match parameter {
+                GenericParam::Lifetime(lifetime) => {
+                    errors.at(
+                        lifetime,
+                        "a program needs no named lifetimes: context and record are borrowed for the call",
+                    );
+                    continue;
+                }
+                GenericParam::Type(parameter) => (&parameter.ident, parameter.to_token_stream()),
+                GenericParam::Const(parameter) => (&parameter.ident, parameter.to_token_stream()),
+            };
+            let types = [Some(&self.pipeline), self.hits.as_ref(), self.record.as_ref(), self.input.as_ref(), self.output.as_ref()];
+            if !types.into_iter().flatten().any(|ty| mentions(ty.to_token_stream(), ident)) {
+                errors.at(
+                    tokens,
+                    format!(
+                        "`pipeline!` can't tell what `{ident}` is: a program's parameters must appear in its context, \
+                         record or payload, as `P` does in `{}`",
+                        kind_generic(self.kind)
+                    ),
+                );
+            }
+        }
+    }
+}
+
+fn kind_generic(kind: Kind) -> &'static str {
+    match kind {
+        Kind::RayGen => "&RayGen<P>",
+        Kind::Miss => "&Miss<P>",
+        Kind::ClosestHit => "&ClosestHit<P, Triangles>",
+        Kind::AnyHit => "&AnyHit<P, Triangles>",
+        Kind::Intersection => "&Intersection<P, BallHit>",
+    }
+}
+
+fn argument_name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::RayGen => "rg",
+        Kind::Miss => "ms",
+        Kind::ClosestHit | Kind::AnyHit => "hit",
+        Kind::Intersection => "isect",
+    }
+}
+
+/// Whether the identifier occurs.
+fn mentions(tokens: TokenStream, ident: &Ident) -> bool {
+    tokens.into_iter().any(|token| match token {
+        TokenTree::Ident(other) => other == *ident,
+        TokenTree::Group(group) => mentions(group.stream(), ident),
+        _ => false,
+    })
+}
+
+fn qualifiers(kind: Kind, function: &ItemFn, errors: &mut Errors) {
+    let (sig, phrase) = (&function.sig, kind.phrase());
+    if let Some(token) = &sig.asyncness {
+        errors.at(token, format!("{phrase} can't be `async`: a device program runs to its end"));
+    }
+    if let Some(token) = &sig.constness {
+        errors.at(token, format!("{phrase} can't be `const`: it asks the machine it runs on"));
+    }
+    if let Safety::Unsafe(token) = &sig.safety {
+        errors.at(
+            token,
+            format!("{phrase} is not `unsafe`: the pipeline calls it with what its signature asks for; use a block inside"),
+        );
+    }
+    if let Some(abi) = &sig.abi {
+        errors.at(
+            abi,
+            format!("{phrase} is an ordinary Rust function: `pipeline!` makes the entry point with its own calling convention"),
+        );
+    }
+    if let Some(variadic) = &sig.variadic {
+        errors.at(variadic, format!("{phrase} can't be variadic"));
+    }
+}
+
+/// Pipeline and hits of `&ClosestHit<PathTracer, Triangles>`.
+fn context_type(kind: Kind, argument: &FnArg, errors: &mut Errors) -> Option<(Type, Option<Type>)> {
+    let (phrase, example) = (kind.phrase(), kind.context_example());
+    let argument = match argument {
+        FnArg::Receiver(receiver) => {
+            errors.at(receiver, format!("a program has no `self`: {phrase} is a free function whose first argument is `{example}`"));
+            return None;
+        }
+        FnArg::Typed(argument) => argument,
+    };
+    let expected = || format!("{phrase} takes its context first, `{example}`");
+    let inner = match ungroup(&argument.ty) {
+        Type::Reference(TypeReference { mutability: Some(token), .. }) => {
+            errors.at(token, format!("{phrase} takes its context by shared reference: `{example}`"));
+            return None;
+        }
+        Type::Reference(reference) => ungroup(&reference.elem),
+        ty => {
+            let by_value = context_kind(ty) == Some(kind);
+            let message = if by_value {
+                format!("{phrase} takes its context by reference: write `&` before it, as in `{example}`")
+            } else {
+                expected()
+            };
+            errors.at(&argument.ty, message);
+            return None;
+        }
+    };
+    match context_kind(inner) {
+        Some(found) if found == kind => {}
+        Some(found) => {
+            errors.at(
+                &argument.ty,
+                format!(
+                    "this is the context of {}, but the attribute makes {phrase}: write `{example}`, or `#[{}]` above \
+                     the function",
+                    found.phrase(),
+                    found.attribute()
+                ),
+            );
+            return None;
+        }
+        None => {
+            errors.at(&argument.ty, expected());
+            return None;
+        }
+    }
+    let Type::Path(path) = inner else { return None };
+    let segment = path.path.segments.last()?;
+    let types: Vec<&Type> = match &segment.arguments {
+        PathArguments::AngleBracketed(arguments) => arguments
+            .args
+            .iter()
+            .filter_map(|a| match a {
+                GenericArgument::Type(ty) => Some(ty),
+                _ => None,
+            })
+            .collect(),
+        _ => Vec::new(),
+    };
+    match (types.as_slice(), kind.has_hits()) {
+        ([pipeline], false) => Some(((*pipeline).clone(), None)),
+        ([pipeline, hits], true) => Some(((*pipeline).clone(), Some((*hits).clone()))),
+        (_, hits) => {
+            let of = if hits { "the pipeline and what its hits carry" } else { "the pipeline" };
+            errors.at(segment, format!("`{}` is the context of one kind of pipeline: name {of}, as in `{example}`", kind.context()));
+            None
+        }
+    }
+}
+
+/// Which context a type is by name.
+fn context_kind(ty: &Type) -> Option<Kind> {
+    let Type::Path(path) = ungroup(ty) else { return None };
+    let last = path.path.segments.last()?;
+    Kind::ALL.into_iter().find(|kind| last.ident == kind.context())
+}
+
+/// The arguments after the context: `record: &T`, then the payload part, each optional.
+fn record_and_payload(kind: Kind, arguments: &[&Type], errors: &mut Errors) -> (Option<Type>, Option<Type>) {
+    let most = if kind == Kind::RayGen { 1 } else { 2 };
+    let example = kind.example();
+    if let Some(extra) = arguments.get(most) {
+        let takes = if kind == Kind::RayGen {
+            "its context and a record"
+        } else {
+            "its context, a record and its part of the payload"
+        };
+        errors.at(extra, format!("{} takes {takes}, and nothing else: {example}", kind.phrase()));
+        return (None, None);
+    }
+    let (mut record, mut input) = (None, None);
+    for (i, ty) in arguments.iter().enumerate() {
+        match ungroup(ty) {
+            Type::Reference(TypeReference { mutability: Some(token), .. }) => errors.at(
+                token,
+                "a record is read-only: programs of many launch indices read it at once; take it as `&T`, and write to a \
+                 `SliceMut` of the launch parameters or of the record",
+            ),
+            Type::Reference(reference) if i == 0 => record = Some((*reference.elem).clone()),
+            Type::Reference(_) => {
+                let message = if record.is_some() {
+                    "a program takes one record; its part of the payload comes by value, without `&`".to_owned()
+                } else {
+                    format!("the record comes before the payload: {example}")
+                };
+                errors.at(ty, message);
+            }
+            Type::ImplTrait(_) => errors.at(ty, "a program's arguments have named types: write a type parameter instead of `impl`"),
+            _ if kind == Kind::RayGen => errors.at(
+                ty,
+                "a ray-generation program gets no payload; its record is taken by reference: `record: &T`",
+            ),
+            _ if i + 1 == arguments.len() => input = Some((*ty).clone()),
+            _ => errors.at(ty, "the record is taken by reference: write `&` before its type"),
+        }
+    }
+    (record, input)
+}
+
+/// The payload part in the result.
+fn output(kind: Kind, output: &ReturnType, sig: &syn::Signature, errors: &mut Errors) -> Option<Type> {
+    let ty = match output {
+        ReturnType::Default if kind == Kind::AnyHit => {
+            errors.push(Error::new(
+                sig.ident.span(),
+                "an any-hit program decides about the hit: it returns `Decision` (`Accept`, `Ignore` or `Terminate`), or \
+                 `(Decision, ..FromAnyHit)` where it writes the payload",
+            ));
+            return None;
+        }
+        ReturnType::Default => return None,
+        ReturnType::Type(_, ty) => ungroup(ty),
+    };
+    let unit = matches!(ty, Type::Tuple(tuple) if tuple.elems.is_empty());
+    match kind {
+        Kind::RayGen => {
+            if !unit {
+                errors.at(ty, "a ray-generation program returns nothing: it writes its result through the launch parameters");
+            }
+            None
+        }
+        Kind::AnyHit => match ty {
+            Type::Tuple(tuple) if tuple.elems.len() == 2 => {
+                let part = &tuple.elems[1];
+                let unit = matches!(part, Type::Tuple(tuple) if tuple.elems.is_empty());
+                (!unit).then(|| part.clone())
+            }
+            Type::Path(path) if path.path.segments.last().is_some_and(|s| s.ident == "Decision") => None,
+            _ => {
+                errors.at(
+                    ty,
+                    "an any-hit program returns `Decision` (`Accept`, `Ignore` or `Terminate`), or \
+                     `(Decision, ..FromAnyHit)` where it writes the payload",
+                );
+                None
+            }
+        },
+        _ if unit => None,
+        _ => match ty {
+            Type::Reference(_) => {
+                errors.at(ty, "a program returns its part of the payload by value");
+                None
+            }
+            Type::Never(_) => {
+                errors.at(ty, "a program returns: its result goes back to the caller of `trace`");
+                None
+            }
+            Type::ImplTrait(_) => {
+                errors.at(ty, "a program's result has a named type");
+                None
+            }
+            _ => Some(ty.clone()),
+        },
+    }
+}
+
+impl Kind {
+    /// The payload parts it has.
+    pub fn roles(self) -> Option<(Ident, Ident)> {
+        (self != Self::RayGen)
+            .then(|| (quote::format_ident!("At{}", self.context()), quote::format_ident!("From{}", self.context())))
+    }
+}

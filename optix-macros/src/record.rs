@@ -1,0 +1,39 @@
+//! `#[derive(SbtRecord)]`.
+
+use crate::data::{device_data, twin};
+use crate::shape::Struct;
+use crate::support::{Errors, allow};
+use proc_macro2::TokenStream;
+use quote::{quote, quote_spanned};
+use syn::DeriveInput;
+
+pub fn derive(input: &DeriveInput) -> TokenStream {
+    let mut errors = Errors::default();
+    let Some(model) = Struct::parse(input, "an SBT record", false, &mut errors) else {
+        return errors.into_tokens();
+    };
+    model.require_repr_c("an SBT record", &mut errors);
+    let (krate, ident, allow, name) = (&model.krate, &model.ident, allow(), model.name());
+    let data = device_data(&model);
+    let twin = twin(&model, &mut errors);
+    let (host, items) = (twin.host, twin.items);
+    let align = quote_spanned! {ident.span()=>
+        const _: () = #krate::check::record_align(#name, ::core::mem::align_of::<#ident>());
+    };
+    let errors = errors.into_tokens();
+    quote! {
+        #errors
+        #data
+        #items
+        #allow
+        const _: () = {
+            #align
+            #[automatically_derived]
+            impl #krate::record::SbtRecord for #ident {
+                const NAME: &'static str = #name;
+                #[cfg(not(target_arch = "nvptx64"))]
+                type Host = #host;
+            }
+        };
+    }
+}

@@ -1,0 +1,189 @@
+//! Structs as the derives see them.
+
+use crate::support::{Errors, crate_of, name, ungroup};
+use proc_macro2::{Span, TokenStream};
+use quote::{ToTokens, quote};
+use syn::spanned::Spanned;
+use syn::{Attribute, Data, DeriveInput, Fields, Ident, Index, Member, Path, Type, Visibility};
+
+/// A struct.
+pub struct Struct {
+    pub attrs: Vec<Attribute>,
+    pub vis: Visibility,
+    pub ident: Ident,
+    pub form: Form,
+    pub fields: Vec<Field>,
+    /// The device crate.
+    pub krate: Path,
+}
+
+/// How a struct is written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    Named,
+    Tuple,
+    Unit,
+}
+
+/// A field.
+pub struct Field {
+    pub attrs: Vec<Attribute>,
+    pub vis: Visibility,
+    pub member: Member,
+    pub ty: Type,
+    /// A view of device memory: by its type's name, or by `#[view]`.
+    pub view: bool,
+    /// `#[bound]`.
+    pub bound: Option<Span>,
+}
+
+impl Field {
+    /// The name, for messages and for `FIELDS`.
+    pub fn name(&self) -> String {
+        match &self.member {
+            Member::Named(ident) => name(ident),
+            Member::Unnamed(index) => index.index.to_string(),
+        }
+    }
+}
+
+/// The names of the view types; an alias of one needs `#[view]`.
+const VIEWS: [&str; 4] = ["Slice", "SliceMut", "SliceMut2d", "Traversable"];
+
+/// Whether the type is a view by its name, or an array of these.
+fn is_view(ty: &Type) -> bool {
+    match ungroup(ty) {
+        Type::Path(path) => path.path.segments.last().is_some_and(|s| VIEWS.iter().any(|v| s.ident == v)),
+        Type::Array(array) => is_view(&array.elem),
+        _ => false,
+    }
+}
+
+impl Struct {
+    /// Reads a struct. `what` is what it is to become: "a payload", "an SBT record".
+    pub fn parse(input: &DeriveInput, what: &str, tuples: bool, errors: &mut Errors) -> Option<Self> {
+        let krate = crate_of(&input.attrs, errors);
+        let data = match &input.data {
+            Data::Struct(data) => data,
+            Data::Enum(data) => {
+                errors.at(data.enum_token, format!("{what} is a struct, not an enum"));
+                return None;
+            }
+            Data::Union(data) => {
+                errors.at(data.union_token, format!("{what} is a struct, not a union"));
+                return None;
+            }
+        };
+        if !input.generics.params.is_empty() {
+            let message = format!(
+                "{what} can't be generic: its layout is fixed where it is declared; write one struct for each use"
+            );
+            errors.at(&input.generics, message);
+            return None;
+        }
+        let form = match &data.fields {
+            Fields::Named(_) => Form::Named,
+            Fields::Unit => Form::Unit,
+            Fields::Unnamed(_) if tuples => Form::Tuple,
+            Fields::Unnamed(fields) => {
+                errors.at(
+                    fields,
+                    format!("{what} needs named fields: write `struct {} {{ name: Type }}`", input.ident),
+                );
+                return None;
+            }
+        };
+        let fields = data.fields.iter().enumerate().map(|(i, field)| Field::parse(i, field, errors)).collect();
+        Some(Self { attrs: input.attrs.clone(), vis: input.vis.clone(), ident: input.ident.clone(), form, fields, krate })
+    }
+
+    /// The name.
+    pub fn name(&self) -> String {
+        name(&self.ident)
+    }
+
+    /// Whether any field is a view.
+    pub fn has_views(&self) -> bool {
+        self.fields.iter().any(|f| f.view)
+    }
+
+    /// Checks for a layout that host and device share.
+    pub fn require_repr_c(&self, what: &str, errors: &mut Errors) {
+        let repr = Repr::of(&self.attrs);
+        if let Some(packed) = repr.packed {
+            errors.at(packed, format!("{what} can't be packed: programs read its fields by reference"));
+        } else if !repr.fixed {
+            errors.at(
+                &self.ident,
+                format!(
+                    "`{}` needs `#[repr(C)]`: host and device are compiled by different compilers, and without it each \
+                     lays out the fields as it likes\n\nhelp: write `#[repr(C)]` above the struct",
+                    self.ident
+                ),
+            );
+        }
+    }
+}
+
+impl Field {
+    fn parse(index: usize, field: &syn::Field, errors: &mut Errors) -> Self {
+        let flag = |word: &str, errors: &mut Errors| {
+            let attribute = field.attrs.iter().find(|a| a.path().is_ident(word))?;
+            if !matches!(attribute.meta, syn::Meta::Path(_)) {
+                errors.at(attribute, format!("`#[{word}]` takes no arguments"));
+            }
+            Some(attribute.span())
+        };
+        let view = flag("view", errors).is_some();
+        let bound = flag("bound", errors);
+        let member = match &field.ident {
+            Some(ident) => Member::Named(ident.clone()),
+            None => Member::Unnamed(Index { index: index as u32, span: field.ty.span() }),
+        };
+        Self {
+            attrs: field.attrs.clone(),
+            vis: field.vis.clone(),
+            member,
+            ty: field.ty.clone(),
+            view: view || is_view(&field.ty),
+            bound,
+        }
+    }
+}
+
+/// What `#[repr(..)]` says.
+pub struct Repr {
+    /// `C` or `transparent`.
+    pub fixed: bool,
+    /// `packed`.
+    pub packed: Option<Path>,
+}
+
+impl Repr {
+    /// Of these attributes. What can't be read is left to rustc.
+    pub fn of(attributes: &[Attribute]) -> Self {
+        let mut repr = Self { fixed: false, packed: None };
+        for attribute in attributes.iter().filter(|a| a.path().is_ident("repr")) {
+            let _ = attribute.parse_nested_meta(|meta| {
+                if meta.path.is_ident("C") || meta.path.is_ident("transparent") {
+                    repr.fixed = true;
+                } else if meta.path.is_ident("packed") {
+                    repr.packed = Some(meta.path.clone());
+                }
+                if meta.input.peek(syn::token::Paren) {
+                    let inner;
+                    syn::parenthesized!(inner in meta.input);
+                    inner.parse::<TokenStream>()?;
+                }
+                Ok(())
+            });
+        }
+        repr
+    }
+}
+
+/// The struct made of one expression per field. Braces build tuple and unit structs too.
+pub fn construct(path: impl ToTokens, fields: &[Field], values: &[TokenStream]) -> TokenStream {
+    let members = fields.iter().map(|f| &f.member);
+    quote!(#path { #(#members: #values),* })
+}

@@ -1,0 +1,110 @@
+//! `#[derive(Words)]` and `#[derive(Attributes)]`: structs in registers.
+
+use crate::data::touch;
+use crate::shape::{Struct, construct};
+use crate::support::{Errors, allow};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote, quote_spanned};
+use syn::DeriveInput;
+use syn::spanned::Spanned;
+
+/// Where each field's words begin.
+struct Places {
+    /// `const __AT_0: usize = ..` for each field and `__END`.
+    consts: TokenStream,
+    stores: Vec<TokenStream>,
+    load: TokenStream,
+}
+
+fn places(model: &Struct) -> Places {
+    let krate = &model.krate;
+    let mut consts = TokenStream::new();
+    let (mut stores, mut loads) = (Vec::new(), Vec::new());
+    for (i, field) in model.fields.iter().enumerate() {
+        let (member, ty) = (&field.member, &field.ty);
+        let (at, next) = (format_ident!("__AT_{i}"), format_ident!("__AT_{}", i + 1));
+        if i == 0 {
+            consts.extend(quote!(const __AT_0: usize = 0;));
+        }
+        let count = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::COUNT);
+        consts.extend(quote!(const #next: usize = #at + #count;));
+        let store = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::store);
+        stores.push(quote!(#store(self.#member, __words, __at + #at);));
+        let load = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::load);
+        loads.push(quote!(#load(__words, __at + #at)));
+    }
+    let end = format_ident!("__AT_{}", model.fields.len());
+    let end = if model.fields.is_empty() { quote!(0) } else { quote!(#end) };
+    consts.extend(quote!(const __END: usize = #end;));
+    let load = construct(quote!(Self), &model.fields, &loads);
+    Places { consts, stores, load }
+}
+
+/// `#[derive(Words)]`.
+pub fn derive_words(input: &DeriveInput) -> TokenStream {
+    let mut errors = Errors::default();
+    let Some(model) = Struct::parse(input, "a value in registers", true, &mut errors) else {
+        return errors.into_tokens();
+    };
+    let (krate, ident, allow) = (&model.krate, &model.ident, allow());
+    let Places { consts, stores, load } = places(&model);
+    let touch = touch(&model);
+    let errors = errors.into_tokens();
+    quote! {
+        #errors
+        #allow
+        const _: () = {
+            #consts
+            #[automatically_derived]
+            impl #krate::words::Words for #ident {
+                const COUNT: usize = __END;
+                #[inline(always)]
+                fn store(self, __words: &mut #krate::words::WordBuffer, __at: usize) {
+                    #(#stores)*
+                }
+                #[inline(always)]
+                fn load(__words: &#krate::words::WordBuffer, __at: usize) -> Self {
+                    #load
+                }
+            }
+            #touch
+        };
+    }
+}
+
+/// `#[derive(Attributes)]`.
+pub fn derive_attributes(input: &DeriveInput) -> TokenStream {
+    let mut errors = Errors::default();
+    let Some(model) = Struct::parse(input, "an attribute set", true, &mut errors) else {
+        return errors.into_tokens();
+    };
+    let (krate, ident, allow, name) = (&model.krate, &model.ident, allow(), model.name());
+    let Places { consts, stores, load } = places(&model);
+    let check = quote_spanned!(ident.span()=> const _: () = #krate::check::attribute_words(#name, __END););
+    let touch = touch(&model);
+    let errors = errors.into_tokens();
+    quote! {
+        #errors
+        #allow
+        const _: () = {
+            #consts
+            #check
+            #[automatically_derived]
+            impl #krate::attributes::Attributes for #ident {
+                const NAME: &'static str = #name;
+                const WORDS: usize = __END;
+                #[inline(always)]
+                fn load(__words: &#krate::words::WordBuffer) -> Self {
+                    let __at = 0;
+                    #load
+                }
+                #[inline(always)]
+                fn store(self, __words: &mut #krate::words::WordBuffer) {
+                    let __at = 0;
+                    #(#stores)*
+                }
+            }
+            #touch
+        };
+    }
+}

@@ -1,0 +1,126 @@
+//! The command line of `cargo optix`: one module a subcommand.
+
+mod build;
+mod doctor;
+mod libraries;
+mod new;
+mod setup;
+mod test;
+
+use std::fmt;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Compile, check and test OptiX shaders written in Rust.
+#[derive(Parser)]
+#[command(name = "cargo optix", bin_name = "cargo optix", version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Action,
+}
+
+#[derive(Subcommand)]
+enum Action {
+    /// Say what this machine can do, and how to get what is missing. Exit code 0 if it can compile shaders.
+    Doctor,
+    /// Install a device compiler, if there is none.
+    Setup,
+    /// Compile shader crates to target/optix/ptx/<CRATE>.ptx.
+    ///
+    /// Without --crate, every package of the workspace that has `[package.metadata.optix] shaders = true`.
+    Build {
+        /// The oldest GPU architecture to run on.
+        #[arg(long, value_name = "sm_XX", default_value = optix_toolchain::DEFAULT_ARCH)]
+        arch: String,
+        /// The folder of one shader crate.
+        #[arg(long = "crate", value_name = "PATH")]
+        path: Option<PathBuf>,
+    },
+    /// Set up, then run every test of the workspace; those that need a GPU too if OptiX is here.
+    Test {
+        /// Further arguments of `cargo test --workspace`.
+        #[arg(last = true, value_name = "ARGS")]
+        args: Vec<String>,
+    },
+    /// Make a project: a shader crate and a host program, which builds and renders.
+    New {
+        /// The folder to make; its last part names the package.
+        path: PathBuf,
+    },
+}
+
+/// Runs the command that the process was started with.
+pub(crate) fn main() -> ExitCode {
+    // Cargo runs `cargo-optix optix ..` for an installed `cargo optix ..`; the workspace's alias leaves that word out.
+    let mut args: Vec<_> = std::env::args_os().collect();
+    if args.get(1).is_some_and(|word| word == "optix") {
+        args.remove(1);
+    }
+    let outcome = match Arguments::parse_from(args).command {
+        Action::Doctor => doctor::run(),
+        Action::Setup => setup::run().map(|_| ExitCode::SUCCESS),
+        Action::Build { arch, path } => build::run(&arch, path),
+        Action::Test { args } => test::run(&args),
+        Action::New { path } => new::run(&path),
+    };
+    outcome.unwrap_or_else(|failure| {
+        eprintln!("error: {failure}");
+        ExitCode::FAILURE
+    })
+}
+
+/// Why a command did not do its work: one line, what is wrong and what to do.
+#[derive(Debug)]
+struct Failure(String);
+
+type Outcome = Result<ExitCode, Failure>;
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl From<optix_toolchain::Error> for Failure {
+    fn from(error: optix_toolchain::Error) -> Self {
+        Self(error.to_string())
+    }
+}
+
+/// The cargo that runs this command, or else the one in `PATH`.
+fn cargo() -> std::ffi::OsString {
+    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
+}
+
+fn current_dir() -> Result<PathBuf, Failure> {
+    std::env::current_dir().map_err(|e| Failure(format!("cannot tell the current folder: {e}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory;
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn arguments_of_test_follow_two_dashes() {
+        let parsed = Arguments::try_parse_from([
+            "cargo optix",
+            "test",
+            "--",
+            "-p",
+            "x",
+            "--",
+            "--nocapture",
+        ]);
+        assert!(
+            matches!(parsed.map(|p| p.command), Ok(Action::Test { args }) if args == ["-p", "x", "--", "--nocapture"])
+        );
+    }
+}

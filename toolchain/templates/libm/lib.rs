@@ -1,0 +1,51 @@
+//! `libm` for the device: what the machine has an instruction for is that instruction, sine and cosine are done in `f32`,
+//! the rest is the original.
+#![no_std]
+#![feature(core_float_math)]
+
+mod sin_cos;
+
+pub use sin_cos::{cosf, sincosf, sinf};
+pub use software::*;
+
+/// Functions of one float type that are instructions. Each is an item of its own, and so goes before the glob import.
+macro_rules! instructions {
+    ($float:ident: $($name:ident($($arg:ident),+) = $function:path;)+) => {$(
+        #[inline(always)]
+        pub fn $name($($arg: $float),+) -> $float {
+            $function($($arg),+)
+        }
+    )+};
+}
+
+instructions! {
+    f32:
+    sqrtf(x) = core::f32::math::sqrt;
+    floorf(x) = core::f32::math::floor;
+    ceilf(x) = core::f32::math::ceil;
+    truncf(x) = core::f32::math::trunc;
+    roundf(x) = core::f32::math::round;
+    rintf(x) = core::f32::math::round_ties_even;
+    roundevenf(x) = core::f32::math::round_ties_even;
+    fmaf(x, y, z) = core::f32::math::mul_add;
+    fabsf(x) = f32::abs;
+    copysignf(x, y) = f32::copysign;
+    fminf(x, y) = f32::min;
+    fmaxf(x, y) = f32::max;
+}
+
+instructions! {
+    f64:
+    sqrt(x) = core::f64::math::sqrt;
+    floor(x) = core::f64::math::floor;
+    ceil(x) = core::f64::math::ceil;
+    trunc(x) = core::f64::math::trunc;
+    round(x) = core::f64::math::round;
+    rint(x) = core::f64::math::round_ties_even;
+    roundeven(x) = core::f64::math::round_ties_even;
+    fma(x, y, z) = core::f64::math::mul_add;
+    fabs(x) = f64::abs;
+    copysign(x, y) = f64::copysign;
+    fmin(x, y) = f64::min;
+    fmax(x, y) = f64::max;
+}

@@ -1,0 +1,144 @@
+//! A shader crate to PTX through the library.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use optix_toolchain::{Built, Error, Shaders, ptx};
+
+fn compile(shaders: &Path) -> Result<Built, Error> {
+    Shaders::new(shaders).compile_in(common::area())
+}
+
+#[test]
+fn ptx_is_what_a_person_would_write() {
+    if !common::can_compile("ptx_is_what_a_person_would_write") {
+        return;
+    }
+    let dir = common::folder("ptx");
+    let shaders = common::shader_crate(&dir);
+    let files = || {
+        let list = fs::read_dir(&shaders).expect("readable");
+        let mut names: Vec<_> = list.flatten().map(|entry| entry.file_name()).collect();
+        names.sort();
+        (
+            names,
+            fs::read(shaders.join("Cargo.lock")).ok(),
+            fs::read(shaders.join("Cargo.toml")).ok(),
+        )
+    };
+    let before = files();
+    let built = compile(&shaders).expect("it compiles");
+    assert_eq!(files(), before, "the user's files are left alone");
+
+    assert_eq!(built.name, "fixture_shaders");
+    assert_eq!(built.entries, ["__raygen__camera"]);
+    assert_eq!(built.functions, [""; 0]);
+    let text = &built.text;
+    assert!(text.contains(".target sm_75"));
+    assert!(
+        text.contains(".visible .const .align 8 .b8 params[16];"),
+        "the symbol of the parameters"
+    );
+    assert!(text.contains("[params+8]"), "a direct load of one field");
+    assert_eq!(
+        text.matches("sqrt.rn.f32").count(),
+        1,
+        "normalize is one square root"
+    );
+    assert_eq!(text.matches("rcp.rn.f32").count(), 1, "and one reciprocal");
+    assert!(text.contains("fma.rn.f32"), "products and sums contract");
+    assert!(
+        !text.contains(".func"),
+        "nothing is called but device functions"
+    );
+
+    let inputs = ["src/lib.rs", "Cargo.toml", "Cargo.lock"].map(|file| shaders.join(file));
+    for input in inputs
+        .into_iter()
+        .filter_map(|input| input.canonicalize().ok())
+    {
+        assert!(
+            built.inputs.contains(&input),
+            "{} in {:?}",
+            input.display(),
+            built.inputs
+        );
+    }
+
+    // A second time there is nothing to do ..
+    let written = |built: &Built| {
+        fs::metadata(&built.ptx)
+            .and_then(|data| data.modified())
+            .expect("it is there")
+    };
+    let again = compile(&shaders).expect("it compiles again");
+    assert_eq!(written(&again), written(&built));
+    // .. unless the result is gone.
+    fs::remove_file(&built.ptx).expect("removable");
+    assert_eq!(
+        compile(&shaders).expect("it compiles once more").text,
+        built.text
+    );
+
+    let exact = Shaders::new(&shaders)
+        .contract(false)
+        .line_info(true)
+        .compile_in(common::area())
+        .expect("it compiles");
+    assert!(!exact.text.contains("fma.rn.f32"), "each operation rounds");
+    assert!(exact.text.contains("\t.loc\t"), "lines are known");
+}
+
+#[test]
+fn what_the_device_lacks_is_an_error() {
+    if !common::can_compile("what_the_device_lacks_is_an_error") {
+        return;
+    }
+    let dir = common::folder("unresolved");
+    let shaders = common::shader_crate(&dir);
+    common::edit(
+        &shaders,
+        "direction(x, y, t);",
+        "{ missing(); direction(x, y, t) };",
+    );
+    common::edit(
+        &shaders,
+        "    #[unsafe(no_mangle)]",
+        "    unsafe extern \"C\" { fn missing(); }\n    #[unsafe(no_mangle)]",
+    );
+    let error = compile(&shaders).expect_err("`missing` is defined nowhere");
+    assert!(
+        matches!(&error, Error::Ptx { problem: ptx::Problem::Unresolved(names), .. } if names == &["missing"]),
+        "{error}"
+    );
+
+    common::edit(&shaders, "#[unsafe(no_mangle)]", "");
+    let error = compile(&shaders).expect_err("there is no entry");
+    assert!(
+        matches!(
+            error,
+            Error::Ptx {
+                problem: ptx::Problem::NoEntry,
+                ..
+            }
+        ),
+        "{error}"
+    );
+
+    let error = Shaders::new(&shaders)
+        .arch("sm_1")
+        .compile_in(common::area())
+        .expect_err("no such GPU");
+    assert!(matches!(error, Error::UnknownArch { .. }), "{error}");
+}
+
+#[test]
+fn a_folder_must_be_a_shader_crate() {
+    let dir = common::folder("no-crate");
+    for path in [dir.clone(), dir.join("missing")] {
+        let error = compile(&path).expect_err("it holds no crate");
+        assert!(matches!(error, Error::NotAShaderCrate { .. }), "{error}");
+    }
+}
