@@ -2,44 +2,48 @@
 //!
 //! Not for users; the macros refer to these by path.
 
-use crate::data::DeviceData;
 use crate::payload::{Part, Payload};
+use crate::ray::{Ray, Traversable};
 use crate::view::Element;
 
 // ---- Payload parts -------------------------------------------------------------------------------------------------
 
-/// A place in which a program meets a payload: `AtClosestHit`, `FromMiss`, ...
-pub trait Role {
-    /// The part of payload `R` that belongs there.
-    type Part<R: Payload>: Part;
-}
-
-macro_rules! roles {
-    ($($name:ident)*) => {$(
-        #[derive(Clone, Copy, Debug)]
-        pub enum $name {}
-        impl Role for $name {
-            type Part<R: Payload> = R::$name;
+macro_rules! received {
+    ($($name:ident: $part:ident, $message:literal, $label:literal;)*) => {$(
+        /// The part is what a program of one kind receives of payload `R`. Made by `#[derive(Payload)]`.
+        #[diagnostic::on_unimplemented(
+            message = $message,
+            label = $label,
+            note = "a program takes its part of the payload by value, and a record by reference: `(context, record: &Record, ray: Part)`"
+        )]
+        pub trait $name<R: Payload>: Part {
+            /// The identity, as far as types can't say so.
+            fn take(part: R::$part) -> Self;
         }
     )*};
 }
-roles! {
-    FromCaller AtCaller AtIntersection FromIntersection AtAnyHit FromAnyHit AtClosestHit FromClosestHit AtMiss FromMiss
+received! {
+    ReceivedByClosestHit: AtClosestHit, "a closest-hit program does not receive `{Self}`", "expected `{R}AtClosestHit`";
+    ReceivedByMiss: AtMiss, "a miss program does not receive `{Self}`", "expected `{R}AtMiss`";
+    ReceivedByAnyHit: AtAnyHit, "an any-hit program does not receive `{Self}`", "expected `{R}AtAnyHit`";
+    ReceivedByIntersection: AtIntersection, "an intersection program does not receive `{Self}`", "expected `{R}AtIntersection`";
 }
 
-/// The part is what a program has in place `Place`. Made by `#[derive(Payload)]`.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is not the `{Place}` part of a payload",
-    label = "expected the struct `..{Place}` that `#[derive(Payload)]` makes",
-    note = "a program takes and returns such parts by value, never the payload itself; a record is taken by reference, `&{Self}`"
-)]
-pub trait PartFor<Place: Role>: Part {
-    /// The payload it is a part of.
-    type Payload: Payload;
-    /// The identity, as far as types can't say so.
-    fn take(part: Place::Part<Self::Payload>) -> Self;
-    /// The identity, as far as types can't say so.
-    fn give(self) -> Place::Part<Self::Payload>;
+macro_rules! returned {
+    ($($name:ident: $part:ident, $message:literal, $label:literal;)*) => {$(
+        /// The part is what a program of one kind returns of payload `R`. Made by `#[derive(Payload)]`.
+        #[diagnostic::on_unimplemented(message = $message, label = $label)]
+        pub trait $name<R: Payload>: Part {
+            /// The identity, as far as types can't say so.
+            fn give(self) -> R::$part;
+        }
+    )*};
+}
+returned! {
+    ReturnedByClosestHit: FromClosestHit, "a closest-hit program of payload `{R}` does not return `{Self}`", "expected `{R}FromClosestHit`";
+    ReturnedByMiss: FromMiss, "a miss program of payload `{R}` does not return `{Self}`", "expected `{R}FromMiss`";
+    ReturnedByAnyHit: FromAnyHit, "an any-hit program of payload `{R}` does not return `{Self}`", "expected `{R}FromAnyHit`";
+    ReturnedByIntersection: FromIntersection, "an intersection program of payload `{R}` does not return `{Self}`", "expected `{R}FromIntersection`";
 }
 
 /// What a program without a payload in its result leaves behind.
@@ -56,6 +60,32 @@ impl MayReturnNothing for () {
     #[inline(always)]
     fn nothing() -> Self {}
 }
+
+// ---- Programs ------------------------------------------------------------------------------------------------------
+
+/// The context of a program that may trace rays.
+#[diagnostic::on_unimplemented(
+    message = "rays can't be traced from `{Self}`",
+    label = "only ray-generation, closest-hit and miss programs trace rays (guide 13)",
+    note = "leave what is needed in the payload, and trace from the closest-hit program"
+)]
+pub trait MayTrace {}
+
+macro_rules! may_not_trace {
+    ($($context:ident)*) => {$(
+        impl<P, A> crate::program::$context<P, A> {
+            /// Not allowed here; it exists for the message.
+            #[doc(hidden)]
+            pub fn trace<R: Payload>(&self, _: Traversable, _: Ray, _: R::FromCaller) -> R::AtCaller
+            where
+                Self: MayTrace,
+            {
+                unreachable!()
+            }
+        }
+    )*};
+}
+may_not_trace!(AnyHit Intersection);
 
 // ---- Pipelines -----------------------------------------------------------------------------------------------------
 
@@ -75,17 +105,26 @@ pub const fn nothing_to_write<T: crate::payload::NothingToWrite>() {}
 
 // ---- Layout --------------------------------------------------------------------------------------------------------
 
-/// Writes a field of a `#[derive(Element)]` struct.
-#[inline(always)]
-pub fn write_element<T: Element>(value: &T, bytes: &mut [u8]) {
-    value.write_to(bytes);
+/// A field of a `#[derive(Element)]` struct.
+pub trait ElementField {
+    /// Bytes.
+    const SIZE: usize;
+    /// [`write_to`](crate::data::DeviceData::write_to).
+    fn write_element(&self, bytes: &mut [u8]);
+}
+impl<T: Element> ElementField for T {
+    const SIZE: usize = size_of::<T>();
+    #[inline(always)]
+    fn write_element(&self, bytes: &mut [u8]) {
+        self.write_to(bytes);
+    }
 }
 
 // Owners of arrays of views: textures of a material, say.
 #[cfg(not(target_arch = "nvptx64"))]
 impl<V: crate::host::View, const N: usize> crate::host::View for [V; N]
 where
-    [V; N]: DeviceData,
+    [V; N]: crate::data::DeviceData,
 {
     type Owner = [V::Owner; N];
     fn of(owner: &Self::Owner, keep: &mut crate::host::KeepAlive) -> Self {

@@ -64,9 +64,9 @@ impl Part for () {
 
 /// Leads from a part, such as `RadianceAtMiss`, to its payload, `Radiance`.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not what a program receives of a payload",
-    label = "expected a struct such as `RadianceAtClosestHit`",
-    note = "a program receives and returns the structs that `#[derive(Payload)]` makes, by value, not the payload itself"
+    message = "`{Self}` is not a part of a payload",
+    label = "expected a struct such as `RadianceAtClosestHit` or `RadianceFromClosestHit`",
+    note = "a program takes and returns the structs that `#[derive(Payload)]` makes, by value, not the payload itself; a record is taken by reference, `&{Self}`"
 )]
 pub trait PartOf: Part {
     /// The payload the part belongs to.

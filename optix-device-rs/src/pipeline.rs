@@ -24,7 +24,7 @@ pub trait Pipeline: Sized + 'static {
 #[diagnostic::on_unimplemented(
     message = "pipeline `{Self}` has no ray type `{R}`",
     label = "`{R}` is not among the `rays` of `{Self}`",
-    note = "add `{R}: {{ miss: .. }}` to `rays` in `pipeline!`, or bound a generic program by `P: HasRay<{R}>`"
+    note = "add `{R} {{ miss: .. }}` to `rays` in `pipeline!`, or bound a generic program by `P: HasRay<{R}>`"
 )]
 pub trait HasRay<R: Payload>: Pipeline {
     /// The ray type's number: SBT offset of its hit-group records and index of its miss record.

@@ -267,13 +267,14 @@ fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
                     __value as *const u8
                 }
             }
-
-            #[cfg(target_arch = "nvptx64")]
-            ::core::arch::global_asm!(
-                #declare,
-                a = const ::core::mem::align_of::<#ident>(),
-                n = const if ::core::mem::size_of::<#ident>() == 0 { 1 } else { ::core::mem::size_of::<#ident>() },
-            );
         };
+
+        // An item, so it can't be in the block above.
+        #[cfg(target_arch = "nvptx64")]
+        ::core::arch::global_asm!(
+            #declare,
+            a = const ::core::mem::align_of::<#ident>(),
+            n = const if ::core::mem::size_of::<#ident>() == 0 { 1 } else { ::core::mem::size_of::<#ident>() },
+        );
     }
 }

@@ -25,10 +25,7 @@ fn try_compile(shaders: &Shaders) -> Result<(), Error> {
     let area = util::target_dir(&out_dir).join("optix");
     let (name, text) = match shaders.compile_in(area) {
         Ok(built) => {
-            built
-                .inputs
-                .iter()
-                .for_each(|input| rerun_if_changed(input));
+            built.inputs.iter().for_each(|input| rerun_if_changed(input));
             let Built { name, text, .. } = built;
             (name, text)
         }
@@ -47,11 +44,7 @@ fn try_compile(shaders: &Shaders) -> Result<(), Error> {
     };
     let ptx = out_dir.join(format!("{name}.ptx"));
     std::fs::write(&ptx, text).doing(|| format!("cannot write {}", ptx.display()))?;
-    println!(
-        "cargo::rustc-env=OPTIX_PTX_{}={}",
-        name.to_uppercase(),
-        ptx.display()
-    );
+    println!("cargo::rustc-env=OPTIX_PTX_{}={}", name, ptx.display());
     Ok(())
 }
 
@@ -60,12 +53,8 @@ fn rerun_if_changed(file: &Path) {
 }
 
 fn variable(name: &str) -> Result<PathBuf, Error> {
-    std::env::var_os(name)
-        .map(PathBuf::from)
-        .ok_or_else(|| Error::Output {
-            of: "cargo".into(),
-            reason: format!(
-                "{name} is not set; `compile` is for build scripts, other programs use `compile_in`"
-            ),
-        })
+    std::env::var_os(name).map(PathBuf::from).ok_or_else(|| Error::Output {
+        of: "cargo".into(),
+        reason: format!("{name} is not set; `compile` is for build scripts, other programs use `compile_in`"),
+    })
 }

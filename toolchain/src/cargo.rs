@@ -8,10 +8,7 @@ use crate::error::{Doing, Error};
 
 /// The cargo that runs this program, or else the one in `PATH`.
 pub(crate) fn program() -> PathBuf {
-    std::env::var_os("CARGO")
-        .filter(|cargo| !cargo.is_empty())
-        .unwrap_or_else(|| "cargo".into())
-        .into()
+    std::env::var_os("CARGO").filter(|cargo| !cargo.is_empty()).unwrap_or_else(|| "cargo".into()).into()
 }
 
 /// A cargo that knows nothing of the outer build: not its flags, wrappers (clippy), profile, target or package.
@@ -41,16 +38,8 @@ fn belongs_to_outer_build(name: &str) -> bool {
         "CARGO_SOURCE_",
         "CARGO_TERM_",
     ];
-    const REMOVED: &[&str] = &[
-        "CARGO",
-        "RUSTC",
-        "RUSTFLAGS",
-        "RUSTDOC",
-        "CLIPPY_",
-        "DEP_",
-        "OUT_DIR",
-        "LD_LIBRARY_PATH",
-    ];
+    const REMOVED: &[&str] =
+        &["CARGO", "RUSTC", "RUSTFLAGS", "RUSTDOC", "CLIPPY_", "DEP_", "OUT_DIR", "LD_LIBRARY_PATH"];
     let starts = |prefixes: &[&str]| prefixes.iter().any(|prefix| name.starts_with(prefix));
     starts(REMOVED) && !starts(KEPT)
 }
@@ -59,37 +48,18 @@ fn belongs_to_outer_build(name: &str) -> bool {
 /// the channel to the outer cargo.
 pub(crate) fn run(command: &mut Command, doing: &str) -> Result<(), Error> {
     let program = command.get_program().to_os_string();
-    let status = command
-        .stdout(Stdio::null())
-        .status()
-        .doing(|| cannot_run(&program))?;
-    if status.success() {
-        Ok(())
-    } else {
-        Err(Error::Step {
-            doing: doing.to_string(),
-            status,
-        })
-    }
+    let status = command.stdout(Stdio::null()).status().doing(|| cannot_run(&program))?;
+    if status.success() { Ok(()) } else { Err(Error::Step { doing: doing.to_string(), status }) }
 }
 
 /// Runs a command and returns what it prints.
 pub(crate) fn read(command: &mut Command, doing: &str) -> Result<String, Error> {
     let program = command.get_program().to_os_string();
-    let output = command
-        .stderr(Stdio::inherit())
-        .output()
-        .doing(|| cannot_run(&program))?;
+    let output = command.stderr(Stdio::inherit()).output().doing(|| cannot_run(&program))?;
     if !output.status.success() {
-        return Err(Error::Step {
-            doing: doing.to_string(),
-            status: output.status,
-        });
+        return Err(Error::Step { doing: doing.to_string(), status: output.status });
     }
-    String::from_utf8(output.stdout).map_err(|e| Error::Output {
-        of: doing.to_string(),
-        reason: e.to_string(),
-    })
+    String::from_utf8(output.stdout).map_err(|e| Error::Output { of: doing.to_string(), reason: e.to_string() })
 }
 
 fn cannot_run(program: &OsString) -> String {
@@ -102,24 +72,14 @@ mod tests {
 
     #[test]
     fn the_outer_build_stays_outside() {
-        for name in [
-            "RUSTC_WORKSPACE_WRAPPER",
-            "RUSTFLAGS",
-            "CARGO_ENCODED_RUSTFLAGS",
-            "CARGO_TARGET_DIR",
-            "CARGO_PKG_NAME",
-        ] {
+        for name in
+            ["RUSTC_WORKSPACE_WRAPPER", "RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_TARGET_DIR", "CARGO_PKG_NAME"]
+        {
             assert!(belongs_to_outer_build(name), "{name}");
         }
-        for name in [
-            "CARGO_HOME",
-            "CARGO_NET_OFFLINE",
-            "CARGO_MAKEFLAGS",
-            "PATH",
-            "HOME",
-            "OPTIX_RUSTC",
-            "RUST_BACKTRACE",
-        ] {
+        for name in
+            ["CARGO_HOME", "CARGO_NET_OFFLINE", "CARGO_MAKEFLAGS", "PATH", "HOME", "OPTIX_RUSTC", "RUST_BACKTRACE"]
+        {
             assert!(!belongs_to_outer_build(name), "{name}");
         }
     }

@@ -16,10 +16,7 @@ const NONE: &str = "none";
 pub(crate) const TARGET: &str = "nvptx64-nvidia-cuda";
 
 /// The oldest device compiler: the version this workspace's crates are written for.
-pub const MINIMUM: Release = Release {
-    major: 1,
-    minor: 90,
-};
+pub const MINIMUM: Release = Release { major: 1, minor: 90 };
 
 /// The version of a `rustc`, as far as it matters here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,10 +31,7 @@ impl Release {
     /// Reads `1.96.0` or `1.97.0-nightly`.
     pub fn parse(text: &str) -> Option<Self> {
         let mut numbers = text.trim().split('.');
-        Some(Self {
-            major: numbers.next()?.parse().ok()?,
-            minor: numbers.next()?.parse().ok()?,
-        })
+        Some(Self { major: numbers.next()?.parse().ok()?, minor: numbers.next()?.parse().ok()? })
     }
 }
 
@@ -137,54 +131,35 @@ impl DeviceCompiler {
 
     /// Whether this `rustc` can compile shaders.
     pub fn check(rustc: &Path) -> Result<Self, Rejected> {
-        let reject = |why| Rejected {
-            rustc: rustc.to_path_buf(),
-            why,
-        };
+        let reject = |why| Rejected { rustc: rustc.to_path_buf(), why };
         let version = output(rustc, &["-vV"]).map_err(|e| reject(Why::DoesNotRun(e)))?;
-        let field = |name: &str| {
-            version
-                .lines()
-                .find_map(|line| line.strip_prefix(name))
-                .map(str::trim)
-        };
+        let field = |name: &str| version.lines().find_map(|line| line.strip_prefix(name)).map(str::trim);
         let release = field("release:")
             .and_then(Release::parse)
             .ok_or_else(|| reject(Why::DoesNotRun("it prints no release".into())))?;
         if release < MINIMUM {
             return Err(reject(Why::TooOld(release)));
         }
-        let sysroot =
-            output(rustc, &["--print", "sysroot"]).map_err(|e| reject(Why::DoesNotRun(e)))?;
+        let sysroot = output(rustc, &["--print", "sysroot"]).map_err(|e| reject(Why::DoesNotRun(e)))?;
         let library = sources_of(Path::new(sysroot.trim()));
         if !library.join("core/src/lib.rs").is_file() {
             return Err(reject(Why::NoSources(library)));
         }
         // A rustc whose LLVM was built without the PTX back end knows the target and lists no CPU for it.
-        let cpus =
-            output(rustc, &["--print", "target-cpus", "--target", TARGET]).unwrap_or_default();
+        let cpus = output(rustc, &["--print", "target-cpus", "--target", TARGET]).unwrap_or_default();
         let archs = architectures(&cpus);
         if archs.is_empty() {
             return Err(reject(Why::NoTarget));
         }
         let llvm = field("LLVM version:").unwrap_or("unknown").to_string();
-        Ok(Self {
-            rustc: rustc.to_path_buf(),
-            release,
-            llvm,
-            library,
-            archs,
-            version,
-        })
+        Ok(Self { rustc: rustc.to_path_buf(), release, llvm, library, archs, version })
     }
 
     /// The edition that this compiler's `core` is written in.
     pub(crate) fn core_edition(&self) -> Result<String, Error> {
         let manifest = self.library.join("core/Cargo.toml");
         let text = crate::util::read(&manifest)?;
-        let edition = text
-            .lines()
-            .find_map(|line| line.trim().strip_prefix("edition = \"")?.strip_suffix('"'));
+        let edition = text.lines().find_map(|line| line.trim().strip_prefix("edition = \"")?.strip_suffix('"'));
         Ok(edition.unwrap_or("2024").to_string())
     }
 }
@@ -194,23 +169,11 @@ impl Candidate {
     /// before older), the distribution's. `OPTIX_RUSTC` stands alone where it is set.
     pub fn all() -> Vec<Self> {
         if let Some(rustc) = chosen() {
-            return vec![Self {
-                rustc,
-                origin: "OPTIX_RUSTC",
-            }];
+            return vec![Self { rustc, origin: "OPTIX_RUSTC" }];
         }
-        let mut all = vec![Self {
-            rustc: behind_proxy(host_rustc()),
-            origin: "the rustc in use",
-        }];
-        all.extend(rustup_toolchains().into_iter().map(|rustc| Self {
-            rustc,
-            origin: "a rustup toolchain",
-        }));
-        all.extend(distribution().into_iter().map(|rustc| Self {
-            rustc,
-            origin: "the distribution's rustc",
-        }));
+        let mut all = vec![Self { rustc: behind_proxy(host_rustc()), origin: "the rustc in use" }];
+        all.extend(rustup_toolchains().into_iter().map(|rustc| Self { rustc, origin: "a rustup toolchain" }));
+        all.extend(distribution().into_iter().map(|rustc| Self { rustc, origin: "the distribution's rustc" }));
         let mut seen: Vec<PathBuf> = Vec::new();
         all.retain(|candidate| {
             let path = resolve(&candidate.rustc);
@@ -230,10 +193,7 @@ fn architectures(cpus: &str) -> Vec<String> {
     let mut numbers: Vec<u32> = cpus.split_whitespace().filter_map(number).collect();
     numbers.retain(|number| *number >= OLDEST);
     numbers.sort_unstable();
-    numbers
-        .iter()
-        .map(|number| format!("sm_{number}"))
-        .collect()
+    numbers.iter().map(|number| format!("sm_{number}")).collect()
 }
 
 /// The program that a rustup proxy in `PATH` runs. Its path changes with the toolchain, which the proxy's does not.
@@ -251,16 +211,11 @@ pub(crate) fn sources_of(sysroot: &Path) -> PathBuf {
 
 /// The compiler of the host's code: cargo names it to build scripts in `RUSTC`.
 pub(crate) fn host_rustc() -> PathBuf {
-    std::env::var_os("RUSTC")
-        .filter(|rustc| !rustc.is_empty())
-        .unwrap_or_else(|| "rustc".into())
-        .into()
+    std::env::var_os("RUSTC").filter(|rustc| !rustc.is_empty()).unwrap_or_else(|| "rustc".into()).into()
 }
 
 fn chosen() -> Option<PathBuf> {
-    std::env::var_os("OPTIX_RUSTC")
-        .filter(|rustc| !rustc.is_empty())
-        .map(PathBuf::from)
+    std::env::var_os("OPTIX_RUSTC").filter(|rustc| !rustc.is_empty()).map(PathBuf::from)
 }
 
 /// The compilers of the installed rustup toolchains. The real programs, not rustup's proxies: those may download.
@@ -268,38 +223,22 @@ fn rustup_toolchains() -> Vec<PathBuf> {
     let home = std::env::var_os("RUSTUP_HOME")
         .map(PathBuf::from)
         .or_else(|| std::env::home_dir().map(|home| home.join(".rustup")));
-    let Some(toolchains) = home.and_then(|home| std::fs::read_dir(home.join("toolchains")).ok())
-    else {
+    let Some(toolchains) = home.and_then(|home| std::fs::read_dir(home.join("toolchains")).ok()) else {
         return Vec::new();
     };
     let mut roots: Vec<PathBuf> = toolchains.flatten().map(|entry| entry.path()).collect();
     roots.sort_by_key(|root| {
-        let name = root
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        (
-            !name.starts_with("stable"),
-            std::cmp::Reverse(Release::parse(&name)),
-        )
+        let name = root.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        (!name.starts_with("stable"), std::cmp::Reverse(Release::parse(&name)))
     });
-    roots
-        .iter()
-        .map(|root| {
-            root.join("bin")
-                .join(format!("rustc{}", std::env::consts::EXE_SUFFIX))
-        })
-        .collect()
+    roots.iter().map(|root| root.join("bin").join(format!("rustc{}", std::env::consts::EXE_SUFFIX))).collect()
 }
 
 /// Debian has one compiler in `/usr/bin`; Ubuntu has further ones beside it.
 fn distribution() -> Vec<PathBuf> {
     let mut found = vec![PathBuf::from("/usr/bin/rustc")];
     if let Ok(entries) = std::fs::read_dir("/usr/lib") {
-        let rust = entries
-            .flatten()
-            .filter(|entry| entry.file_name().to_string_lossy().starts_with("rust-"));
+        let rust = entries.flatten().filter(|entry| entry.file_name().to_string_lossy().starts_with("rust-"));
         found.extend(rust.map(|entry| entry.path().join("bin/rustc")));
     }
     found.retain(|rustc| rustc.is_file());
@@ -310,15 +249,9 @@ fn distribution() -> Vec<PathBuf> {
 fn resolve(program: &Path) -> PathBuf {
     let in_path = || {
         let path = std::env::var_os("PATH")?;
-        std::env::split_paths(&path)
-            .map(|dir| dir.join(program))
-            .find(|file| file.is_file())
+        std::env::split_paths(&path).map(|dir| dir.join(program)).find(|file| file.is_file())
     };
-    let file = if program.components().count() == 1 {
-        in_path()
-    } else {
-        None
-    };
+    let file = if program.components().count() == 1 { in_path() } else { None };
     let file = file.unwrap_or_else(|| program.to_path_buf());
     std::fs::canonicalize(&file).unwrap_or(file)
 }
@@ -358,8 +291,7 @@ mod tests {
 
     #[test]
     fn a_missing_compiler_is_a_reason_not_a_panic() {
-        let rejected =
-            DeviceCompiler::check(Path::new("/nonexistent/rustc")).expect_err("there is none");
+        let rejected = DeviceCompiler::check(Path::new("/nonexistent/rustc")).expect_err("there is none");
         assert!(matches!(rejected.why, Why::DoesNotRun(_)));
     }
 }

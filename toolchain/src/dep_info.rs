@@ -31,10 +31,7 @@ mod tests {
     #[test]
     fn names_may_hold_spaces() {
         let files = sources("/t/a.a: /s/lib.rs /s/my\\ file.rs\n");
-        assert_eq!(
-            files,
-            [PathBuf::from("/s/lib.rs"), PathBuf::from("/s/my file.rs")]
-        );
+        assert_eq!(files, [PathBuf::from("/s/lib.rs"), PathBuf::from("/s/my file.rs")]);
         assert_eq!(sources("/t/a.a:\n"), [] as [PathBuf; 0]);
     }
 }

@@ -68,10 +68,7 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoDeviceCompiler { rejected } => {
-                write!(
-                    f,
-                    "no device compiler, that is a rustc {MINIMUM} or newer with its library sources ("
-                )?;
+                write!(f, "no device compiler, that is a rustc {MINIMUM} or newer with its library sources (")?;
                 for (i, one) in rejected.iter().enumerate() {
                     write!(f, "{}{one}", if i == 0 { "" } else { "; " })?;
                 }
@@ -81,27 +78,18 @@ impl fmt::Display for Error {
                     "); run `cargo optix setup`"
                 })
             }
-            Self::SwitchedOff => {
-                f.write_str("OPTIX_RUSTC=none switches device code off; unset it to compile it")
-            }
+            Self::SwitchedOff => f.write_str("OPTIX_RUSTC=none switches device code off; unset it to compile it"),
             Self::ChosenCompiler(rejected) => {
-                write!(
-                    f,
-                    "OPTIX_RUSTC can't compile shaders: {rejected}; unset it, or name a rustc that can"
-                )
+                write!(f, "OPTIX_RUSTC can't compile shaders: {rejected}; unset it, or name a rustc that can")
             }
             Self::UnknownArch { arch, known } => {
-                write!(
-                    f,
-                    "the device compiler has no architecture `{arch}`; it has {}",
-                    known.join(", ")
-                )
+                write!(f, "the device compiler has no architecture `{arch}`; it has {}", known.join(", "))
             }
             Self::NotAShaderCrate { path, reason } => {
                 write!(f, "{} is no shader crate: {reason}", path.display())
             }
             Self::Step { doing, status } => {
-                write!(f, "{doing} failed ({status}); the messages above say why")
+                write!(f, "{doing} failed ({status}); its own messages say why")
             }
             Self::Ptx { path, problem } => write!(f, "{}: {problem}", path.display()),
             Self::Output { of, reason } => write!(f, "unexpected output of {of}: {reason}"),
@@ -126,9 +114,6 @@ pub(crate) trait Doing<T> {
 
 impl<T> Doing<T> for std::io::Result<T> {
     fn doing(self, what: impl FnOnce() -> String) -> Result<T, Error> {
-        self.map_err(|source| Error::Io {
-            doing: what(),
-            source,
-        })
+        self.map_err(|source| Error::Io { doing: what(), source })
     }
 }

@@ -32,18 +32,10 @@ impl Json {
     /// # Ok::<(), String>(())
     /// ```
     pub fn parse(text: &str) -> Result<Self, String> {
-        let mut reader = Reader {
-            text,
-            at: 0,
-            depth: 0,
-        };
+        let mut reader = Reader { text, at: 0, depth: 0 };
         let value = reader.value()?;
         reader.space();
-        if reader.at < text.len() {
-            Err(reader.expected("the end"))
-        } else {
-            Ok(value)
-        }
+        if reader.at < text.len() { Err(reader.expected("the end")) } else { Ok(value) }
     }
 
     /// The member `key`, or `Null` where there is none, so that look-ups chain.
@@ -68,10 +60,7 @@ impl Json {
             Self::Object(members) => Some(members),
             _ => None,
         };
-        members
-            .into_iter()
-            .flatten()
-            .map(|(key, value)| (key.as_str(), value))
+        members.into_iter().flatten().map(|(key, value)| (key.as_str(), value))
     }
 
     /// The text of a string.
@@ -102,11 +91,7 @@ impl<'a> Reader<'a> {
     }
 
     fn space(&mut self) {
-        self.at = self.text.len()
-            - self
-                .rest()
-                .trim_start_matches([' ', '\t', '\r', '\n'])
-                .len();
+        self.at = self.text.len() - self.rest().trim_start_matches([' ', '\t', '\r', '\n']).len();
     }
 
     /// Takes `token`, with the white space before it, if it comes next.
@@ -129,30 +114,19 @@ impl<'a> Reader<'a> {
         if self.take("\"") {
             return Ok(Json::String(self.string()?));
         }
-        for (word, value) in [
-            ("null", Json::Null),
-            ("true", Json::Bool(true)),
-            ("false", Json::Bool(false)),
-        ] {
+        for (word, value) in [("null", Json::Null), ("true", Json::Bool(true)), ("false", Json::Bool(false))] {
             if self.take(word) {
                 return Ok(value);
             }
         }
         let rest = self.rest();
-        let length = rest
-            .find(|c: char| !matches!(c, '0'..='9' | '+' | '-' | '.' | 'e' | 'E'))
-            .unwrap_or(rest.len());
-        let number = rest[..length]
-            .parse()
-            .map_err(|_| self.expected("a value"))?;
+        let length = rest.find(|c: char| !matches!(c, '0'..='9' | '+' | '-' | '.' | 'e' | 'E')).unwrap_or(rest.len());
+        let number = rest[..length].parse().map_err(|_| self.expected("a value"))?;
         self.at += length;
         Ok(Json::Number(number))
     }
 
-    fn nested(
-        &mut self,
-        read: impl FnOnce(&mut Self) -> Result<Json, String>,
-    ) -> Result<Json, String> {
+    fn nested(&mut self, read: impl FnOnce(&mut Self) -> Result<Json, String>) -> Result<Json, String> {
         self.depth += 1;
         if self.depth > MAX_DEPTH {
             return Err(self.expected("less nesting"));
@@ -206,9 +180,7 @@ impl<'a> Reader<'a> {
         let mut text = String::new();
         loop {
             let rest = self.rest();
-            let plain = rest
-                .find(['"', '\\'])
-                .ok_or_else(|| self.expected("`\"`"))?;
+            let plain = rest.find(['"', '\\']).ok_or_else(|| self.expected("`\"`"))?;
             text.push_str(&rest[..plain]);
             self.at += plain + 1;
             if rest.as_bytes()[plain] == b'"' {
@@ -220,11 +192,7 @@ impl<'a> Reader<'a> {
 
     /// An escape whose backslash is taken.
     fn escape(&mut self) -> Result<char, String> {
-        let kind = self
-            .rest()
-            .chars()
-            .next()
-            .ok_or_else(|| self.expected("an escape"))?;
+        let kind = self.rest().chars().next().ok_or_else(|| self.expected("an escape"))?;
         self.at += kind.len_utf8();
         Ok(match kind {
             '"' | '\\' | '/' => kind,
@@ -249,12 +217,8 @@ impl<'a> Reader<'a> {
     }
 
     fn hex(&mut self) -> Result<u32, String> {
-        let digits = self
-            .rest()
-            .get(..4)
-            .ok_or_else(|| self.expected("four hexadecimal digits"))?;
-        let code = u32::from_str_radix(digits, 16)
-            .map_err(|_| self.expected("four hexadecimal digits"))?;
+        let digits = self.rest().get(..4).ok_or_else(|| self.expected("four hexadecimal digits"))?;
+        let code = u32::from_str_radix(digits, 16).map_err(|_| self.expected("four hexadecimal digits"))?;
         self.at += 4;
         Ok(code)
     }
@@ -266,8 +230,9 @@ mod tests {
 
     #[test]
     fn reads_what_cargo_prints() {
-        let doc = Json::parse(r#" {"a": [1, -2.5e3, true, null, {}], "b": {"c": "x\\\"\n\u00e9\ud83d\ude00"}, "d": []} "#)
-            .expect("valid JSON");
+        let doc =
+            Json::parse(r#" {"a": [1, -2.5e3, true, null, {}], "b": {"c": "x\\\"\n\u00e9\ud83d\ude00"}, "d": []} "#)
+                .expect("valid JSON");
         assert_eq!(doc.get("a").items().len(), 5);
         assert_eq!(doc.get("a").items()[1], Json::Number(-2500.0));
         assert_eq!(doc.get("b").get("c").str(), Some("x\\\"\n\u{e9}\u{1f600}"));
@@ -276,18 +241,7 @@ mod tests {
 
     #[test]
     fn refuses_what_is_not_json() {
-        for bad in [
-            "",
-            "{",
-            "[1,]",
-            "{\"a\" 1}",
-            "\"\\q\"",
-            "\"\\ud800\"",
-            "nul",
-            "1 2",
-            "\"open",
-            "{\"a\":1,}",
-        ] {
+        for bad in ["", "{", "[1,]", "{\"a\" 1}", "\"\\q\"", "\"\\ud800\"", "nul", "1 2", "\"open", "{\"a\":1,}"] {
             assert!(Json::parse(bad).is_err(), "{bad}");
         }
         assert!(Json::parse(&"[".repeat(100_000)).is_err());

@@ -7,8 +7,8 @@
 //! optix_toolchain::shaders("shaders"); // the shader crate's folder, relative to the package
 //! ```
 //!
-//! The PTX is then `OUT_DIR/<crate_name>.ptx`, and the environment variable `OPTIX_PTX_<CRATE_NAME>` that the program
-//! is compiled with holds its absolute path: `include_str!(env!("OPTIX_PTX_MY_SHADERS"))`. [`Shaders`] is the same with
+//! The PTX is then `OUT_DIR/<crate_name>.ptx`, and the environment variable `OPTIX_PTX_<crate_name>` that the program
+//! is compiled with holds its absolute path: `include_str!(env!("OPTIX_PTX_my_shaders"))`. [`Shaders`] is the same with
 //! options.
 //!
 //! # Where there is no device compiler

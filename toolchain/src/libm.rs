@@ -16,10 +16,7 @@ pub(crate) const SOFTWARE: &str = "optix-libm-software";
 
 const SOURCES: [(&str, &str); 2] = [
     ("src/lib.rs", include_str!("../templates/libm/lib.rs")),
-    (
-        "src/sin_cos.rs",
-        include_str!("../templates/libm/sin_cos.rs"),
-    ),
+    ("src/sin_cos.rs", include_str!("../templates/libm/sin_cos.rs")),
 ];
 
 /// The replacement on disk.
@@ -34,10 +31,7 @@ impl PatchedLibm {
     /// Writes the replacement for the `libm` 0.2 among `packages` under `area`. `None`: nothing uses that.
     pub fn write(area: &Path, packages: &[Package]) -> Result<Option<Self>, Error> {
         let is_libm = |package: &&Package| {
-            let registry = package
-                .source
-                .as_deref()
-                .is_some_and(|source| source.starts_with("registry+"));
+            let registry = package.source.as_deref().is_some_and(|source| source.starts_with("registry+"));
             package.name == "libm" && package.version.starts_with("0.2.") && registry
         };
         let Some(original) = packages.iter().find(is_libm) else {
@@ -51,10 +45,7 @@ impl PatchedLibm {
         for (file, text) in SOURCES {
             write_if_changed(&dir.join(file), text)?;
         }
-        Ok(Some(Self {
-            dir,
-            version: original.version.clone(),
-        }))
+        Ok(Some(Self { dir, version: original.version.clone() }))
     }
 }
 
@@ -76,10 +67,7 @@ fn copy_original(original: &Package, to: &Path) -> Result<(), Error> {
     }
     // Its warnings are for its authors; cargo silences them in registry packages only.
     let root = to.join("src/lib.rs");
-    write_if_changed(
-        &root,
-        &format!("#![allow(warnings)]\n{}", util::read(&root)?),
-    )?;
+    write_if_changed(&root, &format!("#![allow(warnings)]\n{}", util::read(&root)?))?;
     write_if_changed(&to.join("Cargo.toml"), &renamed)?;
     Ok(())
 }
@@ -99,15 +87,8 @@ fn manifest(original: &Package) -> String {
          [features]\n",
         original.version
     );
-    for feature in original
-        .features
-        .iter()
-        .filter(|feature| *feature != "default")
-    {
-        text.push_str(&format!(
-            "{feature} = [{}]\n",
-            toml_string(&format!("software/{feature}"))
-        ));
+    for feature in original.features.iter().filter(|feature| *feature != "default") {
+        text.push_str(&format!("{feature} = [{}]\n", toml_string(&format!("software/{feature}"))));
     }
     if original.features.iter().any(|feature| feature == "default") {
         text.push_str("default = [\"software/default\"]\n");

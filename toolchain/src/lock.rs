@@ -8,9 +8,7 @@ use crate::util;
 /// Puts `text` in place as the lock file of the package in `dir`, unless it was put there before: cargo adds to it what
 /// the package needs, and that must last.
 pub(crate) fn seed(dir: &Path, text: &str) -> Result<(), Error> {
-    if util::write_if_changed(&dir.join("Cargo.lock.seed"), text)?
-        || !dir.join("Cargo.lock").exists()
-    {
+    if util::write_if_changed(&dir.join("Cargo.lock.seed"), text)? || !dir.join("Cargo.lock").exists() {
         util::write_if_changed(&dir.join("Cargo.lock"), text)?;
     }
     Ok(())
@@ -24,12 +22,8 @@ pub(crate) fn with_patched_libm(lock: &str, version: &str, software: &str) -> St
     let mut out = String::new();
     for package in lock.split_inclusive("\n\n") {
         if package.contains(&block) {
-            out.push_str(&format!(
-                "[[package]]\n{block}dependencies = [\n \"{software}\",\n]\n\n"
-            ));
-            out.push_str(&format!(
-                "[[package]]\nname = \"{software}\"\nversion = \"{version}\"\n\n"
-            ));
+            out.push_str(&format!("[[package]]\n{block}dependencies = [\n \"{software}\",\n]\n\n"));
+            out.push_str(&format!("[[package]]\nname = \"{software}\"\nversion = \"{version}\"\n\n"));
         } else {
             out.push_str(package);
         }
@@ -48,15 +42,8 @@ mod tests {
                     [[package]]\nname = \"z\"\nversion = \"1.0.0\"\n";
         let patched = with_patched_libm(lock, "0.2.16", "soft");
         assert!(!patched.contains("registry"));
-        assert!(
-            patched.contains(
-                "name = \"libm\"\nversion = \"0.2.16\"\ndependencies = [\n \"soft\",\n]\n"
-            )
-        );
+        assert!(patched.contains("name = \"libm\"\nversion = \"0.2.16\"\ndependencies = [\n \"soft\",\n]\n"));
         assert!(patched.contains("name = \"soft\"\nversion = \"0.2.16\"\n"));
-        assert!(
-            patched.contains("name = \"glam\"")
-                && patched.ends_with("name = \"z\"\nversion = \"1.0.0\"\n")
-        );
+        assert!(patched.contains("name = \"glam\"") && patched.ends_with("name = \"z\"\nversion = \"1.0.0\"\n"));
     }
 }

@@ -29,11 +29,7 @@ impl Package {
     fn from_json(json: &Json) -> Option<Self> {
         const LIBRARIES: [&str; 5] = ["lib", "rlib", "dylib", "staticlib", "cdylib"];
         let is_library = |target: &&Json| {
-            target
-                .get("kind")
-                .items()
-                .iter()
-                .any(|kind| kind.str().is_some_and(|kind| LIBRARIES.contains(&kind)))
+            target.get("kind").items().iter().any(|kind| kind.str().is_some_and(|kind| LIBRARIES.contains(&kind)))
         };
         let library = json.get("targets").items().iter().find(is_library);
         Some(Self {
@@ -41,15 +37,9 @@ impl Package {
             version: json.get("version").str()?.to_string(),
             manifest: json.get("manifest_path").str()?.into(),
             source: json.get("source").str().map(str::to_string),
-            library: library
-                .and_then(|target| target.get("name").str())
-                .map(|name| name.replace('-', "_")),
+            library: library.and_then(|target| target.get("name").str()).map(|name| name.replace('-', "_")),
             has_shaders: json.get("metadata").get("optix").get("shaders") == &Json::Bool(true),
-            features: json
-                .get("features")
-                .members()
-                .map(|(name, _)| name.to_string())
-                .collect(),
+            features: json.get("features").members().map(|(name, _)| name.to_string()).collect(),
         })
     }
 
@@ -66,7 +56,7 @@ pub struct Workspace {
     pub root: PathBuf,
     /// Where its builds go.
     pub target_dir: PathBuf,
-    /// Its members, or, from [`Workspace::with_dependencies`], every package of the graph.
+    /// Its members.
     pub packages: Vec<Package>,
 }
 
@@ -76,40 +66,26 @@ impl Workspace {
         Self::read(dir, &["--no-deps"])
     }
 
-    /// As [`Workspace::of`], with every package of its dependency graph for the device. Writes the lock file.
+    /// As [`Workspace::of`], but `packages` is every package of the dependency graph for the device. Writes the lock file.
     pub(crate) fn with_dependencies(dir: &Path) -> Result<Self, Error> {
         Self::read(dir, &["--filter-platform", crate::compiler::TARGET])
     }
 
     fn read(dir: &Path, args: &[&str]) -> Result<Self, Error> {
         let mut command = cargo::command(dir);
-        command
-            .args(["metadata", "--quiet", "--format-version", "1"])
-            .args(args);
-        let text = cargo::read(
-            &mut command,
-            &format!("reading the manifests in {}", dir.display()),
-        )?;
-        let bad = |reason: String| Error::Output {
-            of: "cargo metadata".into(),
-            reason,
-        };
+        command.args(["metadata", "--quiet", "--format-version", "1"]).args(args);
+        // The caller wants to know where its own builds go.
+        for name in ["CARGO_TARGET_DIR", "CARGO_BUILD_TARGET_DIR"] {
+            command.envs(std::env::var_os(name).map(|dir| (name, dir)));
+        }
+        let text = cargo::read(&mut command, &format!("reading the manifests in {}", dir.display()))?;
+        let bad = |reason: String| Error::Output { of: "cargo metadata".into(), reason };
         let json = Json::parse(&text).map_err(bad)?;
-        let path = |name: &str| {
-            json.get(name)
-                .str()
-                .map(PathBuf::from)
-                .ok_or_else(|| bad(format!("no `{name}`")))
-        };
+        let path = |name: &str| json.get(name).str().map(PathBuf::from).ok_or_else(|| bad(format!("no `{name}`")));
         Ok(Self {
             root: path("workspace_root")?,
             target_dir: path("target_directory")?,
-            packages: json
-                .get("packages")
-                .items()
-                .iter()
-                .filter_map(Package::from_json)
-                .collect(),
+            packages: json.get("packages").items().iter().filter_map(Package::from_json).collect(),
         })
     }
 }

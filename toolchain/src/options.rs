@@ -130,16 +130,9 @@ impl Shaders {
 
     /// Tells builds apart whose intermediate files must not be mixed.
     pub(crate) fn key(&self, dir: &Path) -> String {
-        let switches = format!(
-            "{}{}{}{}",
-            self.contract, self.approximate, self.line_info, self.default_features
-        );
+        let switches = format!("{}{}{}{}", self.contract, self.approximate, self.line_info, self.default_features);
         let dir = dir.to_string_lossy();
         let parts = [dir.as_ref(), self.arch.as_str(), switches.as_str()];
-        util::hash(
-            parts
-                .into_iter()
-                .chain(self.features.iter().map(String::as_str)),
-        )
+        util::hash(parts.into_iter().chain(self.features.iter().map(String::as_str)))
     }
 }

@@ -36,7 +36,9 @@ pub enum Problem {
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoEntry => f.write_str("the PTX has no entry point; a shader crate needs at least one device program, such as a `#[raygen]`"),
+            Self::NoEntry => f.write_str(
+                "the PTX has no entry point; a shader crate needs at least one device program, such as a `#[raygen]`",
+            ),
             Self::Unresolved(names) => write!(
                 f,
                 "the PTX uses what is not defined on the device: {}; avoid what calls it (a name that starts with `__` or \
@@ -53,12 +55,7 @@ impl std::error::Error for Problem {}
 impl<'a> Module<'a> {
     /// Reads the declarations and checks them.
     pub fn read(text: &'a str) -> Result<Self, Problem> {
-        let mut module = Self {
-            entries: Vec::new(),
-            functions: Vec::new(),
-            version: "",
-            target: "",
-        };
+        let mut module = Self { entries: Vec::new(), functions: Vec::new(), version: "", target: "" };
         let mut unresolved = Vec::new();
         let mut lines = text.lines();
         while let Some(line) = lines.next() {
@@ -112,17 +109,9 @@ fn extern_name<'a>(line: &'a str, lines: &mut std::str::Lines<'a>) -> &'a str {
 /// The name after `.func`: behind the result's parentheses, if there are any, and perhaps on the next line.
 fn function_name<'a>(rest: &'a str, lines: &mut std::str::Lines<'a>) -> &'a str {
     let rest = rest.trim_start();
-    let rest = if rest.starts_with('(') {
-        rest.split_once(')').map_or("", |(_, name)| name)
-    } else {
-        rest
-    };
+    let rest = if rest.starts_with('(') { rest.split_once(')').map_or("", |(_, name)| name) } else { rest };
     let rest = rest.trim_start();
-    identifier(if rest.is_empty() {
-        lines.next().unwrap_or_default().trim_start()
-    } else {
-        rest
-    })
+    identifier(if rest.is_empty() { lines.next().unwrap_or_default().trim_start() } else { rest })
 }
 
 fn identifier(text: &str) -> &str {
@@ -156,10 +145,7 @@ mod tests {
              .extern .global .align 4 .b8 TABLE[64];\n.visible .entry __raygen__a()\n{{\n}}\n"
         );
         let problem = Module::read(&text).expect_err("unresolved");
-        assert_eq!(
-            problem,
-            Problem::Unresolved(vec!["__udivti3".into(), "TABLE".into()])
-        );
+        assert_eq!(problem, Problem::Unresolved(vec!["__udivti3".into(), "TABLE".into()]));
     }
 
     #[test]

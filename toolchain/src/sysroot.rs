@@ -15,16 +15,10 @@ use crate::util;
 /// `rustc` links every `no_std` crate to a crate of this name. Its functions would not reach the PTX (it never takes
 /// part in link-time optimisation), so an empty one does; a symbol that would have come from it is reported as
 /// unresolved by the check of the PTX.
-const COMPILER_BUILTINS: &str =
-    "#![no_std]\n#![feature(compiler_builtins)]\n#![compiler_builtins]\n";
+const COMPILER_BUILTINS: &str = "#![no_std]\n#![feature(compiler_builtins)]\n#![compiler_builtins]\n";
 
 /// The sysroot for `compiler` and `arch` under `area`, compiled if it is not there yet. About 15 s on two cores, once.
-pub(crate) fn ensure(
-    compiler: &DeviceCompiler,
-    arch: &str,
-    area: &Path,
-    quiet: bool,
-) -> Result<PathBuf, Error> {
+pub(crate) fn ensure(compiler: &DeviceCompiler, arch: &str, area: &Path, quiet: bool) -> Result<PathBuf, Error> {
     // The architecture is part of it: LLVM does not inline between functions of different target CPUs.
     let name = format!("sysroot-{}", util::hash([compiler.version.as_str(), arch]));
     let sysroot = area.join(&name);
@@ -42,8 +36,7 @@ pub(crate) fn ensure(
     let unfinished = area.join(format!("{name}.part"));
     let libraries = unfinished.join("lib/rustlib").join(TARGET).join("lib");
     if unfinished.exists() {
-        fs::remove_dir_all(&unfinished)
-            .doing(|| format!("cannot remove {}", unfinished.display()))?;
+        fs::remove_dir_all(&unfinished).doing(|| format!("cannot remove {}", unfinished.display()))?;
     }
     util::create_dir(&libraries)?;
     let builtins = unfinished.join("compiler_builtins.rs");
@@ -52,23 +45,8 @@ pub(crate) fn ensure(
     let edition = compiler.core_edition()?;
     for (name, source) in [("core", &core), ("compiler_builtins", &builtins)] {
         let status = Command::new(&compiler.rustc)
-            .args([
-                "--crate-name",
-                name,
-                "--crate-type",
-                "rlib",
-                "--edition",
-                &edition,
-                "--target",
-                TARGET,
-            ])
-            .args([
-                "--cap-lints",
-                "allow",
-                "-Cpanic=abort",
-                "-Copt-level=3",
-                "-Cmetadata=optix",
-            ])
+            .args(["--crate-name", name, "--crate-type", "rlib", "--edition", &edition, "--target", TARGET])
+            .args(["--cap-lints", "allow", "-Cpanic=abort", "-Copt-level=3", "-Cmetadata=optix"])
             // The machine code of an rlib is never used, since everything is optimised together at the end: leave it
             // out, and optimise in parallel.
             .args(["-Clinker-plugin-lto", "-Ccodegen-units=16"])
@@ -84,13 +62,9 @@ pub(crate) fn ensure(
             .status()
             .doing(|| format!("cannot run {}", compiler.rustc.display()))?;
         if !status.success() {
-            return Err(Error::Step {
-                doing: format!("compiling `{name}` for {TARGET}"),
-                status,
-            });
+            return Err(Error::Step { doing: format!("compiling `{name}` for {TARGET}"), status });
         }
     }
-    fs::rename(&unfinished, &sysroot)
-        .doing(|| format!("cannot rename {}", unfinished.display()))?;
+    fs::rename(&unfinished, &sysroot).doing(|| format!("cannot rename {}", unfinished.display()))?;
     Ok(sysroot)
 }

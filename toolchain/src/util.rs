@@ -48,11 +48,7 @@ pub(crate) fn lock(path: &Path) -> Result<File, Error> {
         create_dir(parent)?;
     }
     let doing = || format!("cannot lock {}", path.display());
-    let file = File::options()
-        .create(true)
-        .append(true)
-        .open(path)
-        .doing(doing)?;
+    let file = File::options().create(true).append(true).open(path).doing(doing)?;
     file.lock().doing(doing)?;
     Ok(file)
 }
@@ -76,11 +72,7 @@ pub(crate) fn toml_string(text: &str) -> String {
 
 /// The target directory that holds `out_dir`: cargo marks it with a `CACHEDIR.TAG`. Without one, `out_dir` itself.
 pub(crate) fn target_dir(out_dir: &Path) -> PathBuf {
-    out_dir
-        .ancestors()
-        .find(|dir| dir.join("CACHEDIR.TAG").is_file())
-        .unwrap_or(out_dir)
-        .to_path_buf()
+    out_dir.ancestors().find(|dir| dir.join("CACHEDIR.TAG").is_file()).unwrap_or(out_dir).to_path_buf()
 }
 
 #[cfg(test)]

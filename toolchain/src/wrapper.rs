@@ -31,42 +31,20 @@ impl Wrapper {
         package: &Package,
         libm: Option<&PatchedLibm>,
     ) -> Result<Self, Error> {
-        let library = format!(
-            "optix_ptx_{}_{}",
-            package.name.replace('-', "_"),
-            &shaders.key(package.dir())[..8]
-        );
-        let user_library = package
-            .library
-            .as_deref()
-            .ok_or_else(|| Error::NotAShaderCrate {
-                path: package.dir().to_path_buf(),
-                reason: "it has no library; its code belongs into src/lib.rs".into(),
-            })?;
-        write_if_changed(
-            &dir.join("Cargo.toml"),
-            &manifest(&library, shaders, package, libm),
-        )?;
-        write_if_changed(
-            &dir.join("src/lib.rs"),
-            &format!("#![no_std]\npub use {user_library}::*;\n"),
-        )?;
+        let library = format!("optix_ptx_{}_{}", package.name.replace('-', "_"), &shaders.key(package.dir())[..8]);
+        let user_library = package.library.as_deref().ok_or_else(|| Error::NotAShaderCrate {
+            path: package.dir().to_path_buf(),
+            reason: "it has no library; its code belongs into src/lib.rs".into(),
+        })?;
+        write_if_changed(&dir.join("Cargo.toml"), &manifest(&library, shaders, package, libm))?;
+        write_if_changed(&dir.join("src/lib.rs"), &format!("#![no_std]\npub use {user_library}::*;\n"))?;
         Ok(Self { dir, library })
     }
 }
 
-fn manifest(
-    library: &str,
-    shaders: &Shaders,
-    package: &Package,
-    libm: Option<&PatchedLibm>,
-) -> String {
+fn manifest(library: &str, shaders: &Shaders, package: &Package, libm: Option<&PatchedLibm>) -> String {
     let path = |dir: &Path| toml_string(&dir.to_string_lossy());
-    let features: Vec<String> = shaders
-        .features
-        .iter()
-        .map(|feature| toml_string(feature))
-        .collect();
+    let features: Vec<String> = shaders.features.iter().map(|feature| toml_string(feature)).collect();
     let mut text = format!(
         "# Written by optix-toolchain; see its `wrapper` module.\n\
          [package]\n\
@@ -97,17 +75,10 @@ fn manifest(
         dir = path(package.dir()),
         default_features = shaders.default_features,
         features = features.join(", "),
-        debug = if shaders.line_info {
-            "\"line-directives-only\""
-        } else {
-            "false"
-        },
+        debug = if shaders.line_info { "\"line-directives-only\"" } else { "false" },
     );
     if let Some(libm) = libm {
-        text.push_str(&format!(
-            "\n[patch.crates-io]\nlibm = {{ path = {} }}\n",
-            path(&libm.dir)
-        ));
+        text.push_str(&format!("\n[patch.crates-io]\nlibm = {{ path = {} }}\n", path(&libm.dir)));
     }
     text
 }

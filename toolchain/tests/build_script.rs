@@ -6,8 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-const MAIN: &str =
-    "fn main() { print!(\"{}\", include_str!(env!(\"OPTIX_PTX_FIXTURE_SHADERS\"))); }\n";
+const MAIN: &str = "fn main() { print!(\"{}\", include_str!(env!(\"OPTIX_PTX_fixture_shaders\"))); }\n";
 
 /// A host program around a copy of the fixture.
 fn project(name: &str) -> PathBuf {
@@ -22,11 +21,7 @@ fn project(name: &str) -> PathBuf {
     fs::create_dir(dir.join("src")).expect("writable");
     fs::write(dir.join("Cargo.toml"), manifest).expect("writable");
     fs::write(dir.join("src/main.rs"), MAIN).expect("writable");
-    fs::write(
-        dir.join("build.rs"),
-        "fn main() { optix_toolchain::shaders(\"shaders\") }\n",
-    )
-    .expect("writable");
+    fs::write(dir.join("build.rs"), "fn main() { optix_toolchain::shaders(\"shaders\") }\n").expect("writable");
     dir
 }
 
@@ -91,43 +86,25 @@ fn a_program_with_shaders() {
     let run = cargo(&dir, &["run"], None);
     assert!(run.status.success(), "{}", text(&run.stderr));
     assert!(text(&run.stdout).contains(".entry __raygen__camera"));
-    assert!(
-        !text(&run.stderr).contains("warning:"),
-        "{}",
-        text(&run.stderr)
-    );
+    assert!(!text(&run.stderr).contains("warning:"), "{}", text(&run.stderr));
 
     // Nothing changed: the build script does not run.
     let again = cargo(&dir, &["build", "--verbose"], None);
-    assert!(
-        text(&again.stderr).contains("Fresh host"),
-        "{}",
-        text(&again.stderr)
-    );
+    assert!(text(&again.stderr).contains("Fresh host"), "{}", text(&again.stderr));
 
     // A source changed: it does.
     let shaders = dir.join("shaders");
     common::edit(&shaders, "__raygen__camera", "__raygen__lens");
     let run = cargo(&dir, &["run"], None);
-    assert!(
-        text(&run.stdout).contains(".entry __raygen__lens"),
-        "{}",
-        text(&run.stderr)
-    );
+    assert!(text(&run.stdout).contains(".entry __raygen__lens"), "{}", text(&run.stderr));
 
     // An error for the device only: rustc's diagnostics are shown, and the build fails.
     common::edit(&shaders, "let t: f32;", "let t: f32 = 1_u32;");
     let run = cargo(&dir, &["build"], None);
     let err = text(&run.stderr);
     assert!(!run.status.success());
-    assert!(
-        err.contains("error[E0308]: mismatched types") && err.contains("let t: f32 = 1_u32;"),
-        "{err}"
-    );
-    assert!(
-        err.contains("compiling fixture-shaders for the device failed"),
-        "{err}"
-    );
+    assert!(err.contains("error[E0308]: mismatched types") && err.contains("let t: f32 = 1_u32;"), "{err}");
+    assert!(err.contains("compiling fixture-shaders for the device failed"), "{err}");
 
     // Put right, it builds.
     common::edit(&shaders, "let t: f32 = 1_u32;", "let t: f32;");

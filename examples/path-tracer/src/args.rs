@@ -9,9 +9,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, ValueEnum};
 
-use crate::image_file::{
-    Image, ImageError, ImageFormat, MAX_PIXELS, check_writable, lower_extension,
-};
+use crate::image_file::{Image, ImageError, ImageFormat, MAX_PIXELS, check_writable, lower_extension};
 use crate::mesh::{MeshError, MeshFormat};
 
 /// Renders a Cornell box by path tracing, with one shader crate that runs on the CPU and on OptiX.
@@ -34,15 +32,15 @@ pub struct Args {
     pub size: Size,
 
     /// Samples per pixel. Four times as many halve the error.
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u64).range(1..=1 << 32))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 64, value_parser = clap::value_parser!(u64).range(1..=1 << 32))]
     pub samples: u64,
 
     /// Most bounces of a path; 0 shows only what emits light.
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1024))]
     pub bounces: u32,
 
     /// Seed of the random numbers. The same seed gives the same picture, for any number of threads.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
     pub seed: u64,
 
     /// Picture to write: .png (8 bits, tone-mapped), .exr or .pfm (both linear radiance).
@@ -63,7 +61,7 @@ pub struct Args {
     pub explain: bool,
 
     /// Threads of the CPU executor; 0 takes one per core.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1024))]
     pub threads: u32,
 
     /// Trap what OptiX calls undefined: validation mode on OptiX, checked mode on the CPU. Slower.
@@ -108,14 +106,10 @@ impl std::str::FromStr for Size {
             Ok(extent) => Ok(extent),
             Err(e) => Err(format!("the {what}: {e}")),
         };
-        let (width, height) = text
-            .split_once(['x', 'X'])
-            .ok_or("WIDTHxHEIGHT is needed, such as 640x480")?;
+        let (width, height) = text.split_once(['x', 'X']).ok_or("WIDTHxHEIGHT is needed, such as 640x480")?;
         let (width, height) = (whole(width, "width")?, whole(height, "height")?);
         if u64::from(width) * u64::from(height) > MAX_PIXELS {
-            return Err(format!(
-                "more than {MAX_PIXELS} pixels (2^30), the limit of an OptiX launch"
-            ));
+            return Err(format!("more than {MAX_PIXELS} pixels (2^30), the limit of an OptiX launch"));
         }
         Ok(Self { width, height })
     }
@@ -133,8 +127,6 @@ pub enum ReportFormat {
 /// What is needed to render, and was found to be in order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checked {
-    /// Format of `--out`.
-    pub format: ImageFormat,
     /// Files and formats of `--report`.
     pub reports: Vec<(PathBuf, ReportFormat)>,
     /// The picture of `--reference`, of the size that is rendered.
@@ -201,12 +193,8 @@ impl Args {
         })
     }
 
-    fn parse_words<T: Into<std::ffi::OsString> + Clone>(
-        words: impl IntoIterator<Item = T>,
-    ) -> Result<Self, Refused> {
-        let parsed = Self::command()
-            .try_get_matches_from(words)
-            .and_then(|m| Self::from_arg_matches(&m));
+    fn parse_words<T: Into<std::ffi::OsString> + Clone>(words: impl IntoIterator<Item = T>) -> Result<Self, Refused> {
+        let parsed = Self::command().try_get_matches_from(words).and_then(|m| Self::from_arg_matches(&m));
         parsed.map_err(|e| match e.kind() {
             ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Refused::Shown(e),
             _ => Refused::Wrong(one_line(&e.render().to_string())),
@@ -223,7 +211,7 @@ impl Args {
         if let Some(mesh) = &self.mesh {
             MeshFormat::of(mesh).map_err(ArgsError::Mesh)?;
         }
-        let format = ImageFormat::of(&self.out).map_err(ArgsError::Out)?;
+        ImageFormat::of(&self.out).map_err(ArgsError::Out)?;
         check_writable(&self.out).map_err(ArgsError::Out)?;
         let mut reports = Vec::new();
         for path in &self.report {
@@ -233,24 +221,17 @@ impl Args {
         }
         self.check_distinct()?;
         let Size { width, height } = self.size;
-        let read =
-            |path: &PathBuf| Image::read_sized(path, width, height).map_err(ArgsError::Reference);
+        let read = |path: &PathBuf| Image::read_sized(path, width, height).map_err(ArgsError::Reference);
         let reference = self.reference.as_ref().map(read).transpose()?;
-        Ok(Checked {
-            format,
-            reports,
-            reference,
-        })
+        Ok(Checked { reports, reference })
     }
 
     fn check_memory(&self, free: Option<u64>) -> Result<(), ArgsError> {
         let needed = self.size.pixels() as u64 * BYTES_PER_PIXEL;
         match free {
-            Some(free) if needed > free => Err(ArgsError::Memory {
-                size: self.size,
-                needed: needed >> 20,
-                free: free >> 20,
-            }),
+            Some(free) if needed > free => {
+                Err(ArgsError::Memory { size: self.size, needed: needed >> 20, free: free >> 20 })
+            }
             _ => Ok(()),
         }
     }
@@ -259,21 +240,11 @@ impl Args {
     fn check_distinct(&self) -> Result<(), ArgsError> {
         let reports = self.report.iter().map(|p| ("--report", p));
         let inputs = [("--reference", &self.reference), ("--mesh", &self.mesh)];
-        let inputs = inputs
-            .into_iter()
-            .filter_map(|(name, path)| Some((name, path.as_ref()?)));
-        let files: Vec<_> = [("--out", &self.out)]
-            .into_iter()
-            .chain(reports)
-            .chain(inputs)
-            .collect();
+        let inputs = inputs.into_iter().filter_map(|(name, path)| Some((name, path.as_ref()?)));
+        let files: Vec<_> = [("--out", &self.out)].into_iter().chain(reports).chain(inputs).collect();
         for (i, &(second, path)) in files.iter().enumerate() {
             if let Some(&(first, _)) = files[..i].iter().find(|(_, other)| same_file(other, path)) {
-                return Err(ArgsError::SameFile {
-                    first,
-                    second,
-                    path: path.clone(),
-                });
+                return Err(ArgsError::SameFile { first, second, path: path.clone() });
             }
         }
         Ok(())
@@ -290,9 +261,10 @@ enum Refused {
 
 /// clap's message without usage and advice, its paragraphs joined.
 fn one_line(message: &str) -> String {
-    let useful = message.lines().map(str::trim).filter(|l| {
-        !l.is_empty() && !l.starts_with("Usage:") && !l.starts_with("For more information")
-    });
+    let useful = message
+        .lines()
+        .map(str::trim)
+        .filter(|l| !l.is_empty() && !l.starts_with("Usage:") && !l.starts_with("For more information"));
     let line = useful.collect::<Vec<_>>().join("; ");
     format!("{} (try --help)", line.replace(":; ", ": "))
 }
@@ -313,10 +285,7 @@ fn report_format(path: &Path) -> Result<ReportFormat, ImageError> {
 fn same_file(a: &Path, b: &Path) -> bool {
     let resolved = |path: &Path| {
         path.canonicalize().ok().or_else(|| {
-            let parent = path
-                .parent()
-                .filter(|p| *p != Path::new(""))
-                .unwrap_or(Path::new("."));
+            let parent = path.parent().filter(|p| *p != Path::new("")).unwrap_or(Path::new("."));
             Some(parent.canonicalize().ok()?.join(path.file_name()?))
         })
     };

@@ -104,10 +104,7 @@ impl ImageFormat {
 
 /// The extension in lower case, without its dot; empty where there is none.
 pub fn lower_extension(path: &Path) -> String {
-    path.extension()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .to_ascii_lowercase()
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
 impl Image {
@@ -121,16 +118,8 @@ impl Image {
         let format = ImageFormat::of(path)?;
         let pixels = u64::from(self.width) * u64::from(self.height);
         if pixels == 0 || self.pixels.len() as u64 != pixels {
-            let why = format!(
-                "{} pixels are no picture of {}x{}",
-                self.pixels.len(),
-                self.width,
-                self.height
-            );
-            return Err(ImageError::Malformed {
-                path: path.to_owned(),
-                why,
-            });
+            let why = format!("{} pixels are no picture of {}x{}", self.pixels.len(), self.width, self.height);
+            return Err(ImageError::Malformed { path: path.to_owned(), why });
         }
         write_beside(path, |to| match format {
             ImageFormat::Png => png_file::write(self, exposure, to),
@@ -147,10 +136,10 @@ impl Image {
         read(path, None)
     }
 
-    /// Reads a linear picture that must have a certain size, which is checked before anything is allocated.
+    /// Reads a linear picture, `.pfm` or `.exr`, that must have a certain size, which is checked before it is decoded.
     ///
     /// # Errors
-    /// As [`read`](Self::read), and [`ImageError::Size`].
+    /// [`ImageError::Extension`], [`ImageError::Io`], [`ImageError::Malformed`] and [`ImageError::Size`].
     pub fn read_sized(path: &Path, width: u32, height: u32) -> Result<Self, ImageError> {
         read(path, Some((width, height)))
     }
@@ -158,65 +147,37 @@ impl Image {
 
 fn read(path: &Path, want: Option<(u32, u32)>) -> Result<Image, ImageError> {
     let what = "a linear picture";
-    let extension = || ImageError::Extension {
-        path: path.to_owned(),
-        what,
-        known: ".pfm or .exr",
-    };
-    let malformed = |why: String| ImageError::Malformed {
-        path: path.to_owned(),
-        why,
-    };
+    let extension = || ImageError::Extension { path: path.to_owned(), what, known: ".pfm or .exr" };
+    let malformed = |why: String| ImageError::Malformed { path: path.to_owned(), why };
     let decode: Decoder = match ImageFormat::of(path) {
         Ok(ImageFormat::Pfm) => (pfm::size, pfm::read),
         Ok(ImageFormat::Exr) => (exr_file::size, exr_file::read),
         _ => return Err(extension()),
     };
-    let fail = |why: String| ImageError::Io {
-        path: path.to_owned(),
-        verb: "read",
-        why,
-    };
-    if !fs::metadata(path)
-        .map_err(|e| fail(e.to_string()))?
-        .is_file()
-    {
+    let fail = |why: String| ImageError::Io { path: path.to_owned(), verb: "read", why };
+    if !fs::metadata(path).map_err(|e| fail(e.to_string()))?.is_file() {
         return Err(fail("it is not a regular file".into()));
     }
     let bytes = fs::read(path).map_err(|e| fail(e.to_string()))?;
     let got = (decode.0)(&bytes).map_err(malformed)?;
     if u64::from(got.0) * u64::from(got.1) > MAX_PIXELS {
-        return Err(malformed(format!(
-            "{}x{} is more than 2^30 pixels",
-            got.0, got.1
-        )));
+        return Err(malformed(format!("{}x{} is more than 2^30 pixels", got.0, got.1)));
     }
     match want {
-        Some(want) if want != got => Err(ImageError::Size {
-            path: path.to_owned(),
-            got,
-            want,
-        }),
+        Some(want) if want != got => Err(ImageError::Size { path: path.to_owned(), got, want }),
         _ => (decode.1)(&bytes).map_err(malformed),
     }
 }
 
 /// Reads the size, and reads the whole.
-type Decoder = (
-    fn(&[u8]) -> Result<(u32, u32), String>,
-    fn(&[u8]) -> Result<Image, String>,
-);
+type Decoder = (fn(&[u8]) -> Result<(u32, u32), String>, fn(&[u8]) -> Result<Image, String>);
 
 /// Finds out whether a file could be written here, without touching what is there. For the time before a long render.
 ///
 /// # Errors
 /// [`ImageError::Io`] with the reason: the folder is missing or closed, the target is a folder or read-only.
 pub fn check_writable(path: &Path) -> Result<(), ImageError> {
-    let fail = |why: String| ImageError::Io {
-        path: path.to_owned(),
-        verb: "written",
-        why,
-    };
+    let fail = |why: String| ImageError::Io { path: path.to_owned(), verb: "written", why };
     match fs::metadata(path) {
         Ok(target) if target.is_dir() => return Err(fail("it is a folder".into())),
         Ok(target) if !target.is_file() => return Err(fail("it is not a regular file".into())),
@@ -240,25 +201,16 @@ pub fn check_writable(path: &Path) -> Result<(), ImageError> {
 ///
 /// # Errors
 /// [`ImageError::Io`] with the first error of `fill` or of the operating system.
-pub fn write_beside(
-    path: &Path,
-    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<(), ImageError> {
-    let fail = |e: io::Error| ImageError::Io {
-        path: path.to_owned(),
-        verb: "written",
-        why: e.to_string(),
-    };
+pub fn write_beside(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), ImageError> {
+    let fail = |e: io::Error| ImageError::Io { path: path.to_owned(), verb: "written", why: e.to_string() };
     // A link stays a link: what it points to is replaced.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let (beside, file) = create_beside(&target).map_err(fail)?;
     let mut writer = BufWriter::new(file);
-    let written = fill(&mut writer)
-        .and_then(|()| writer.flush())
-        .and_then(|()| {
-            drop(writer);
-            fs::rename(&beside, &target)
-        });
+    let written = fill(&mut writer).and_then(|()| writer.flush()).and_then(|()| {
+        drop(writer);
+        fs::rename(&beside, &target)
+    });
     written.map_err(|e| {
         let _ = fs::remove_file(&beside);
         fail(e)
@@ -274,19 +226,13 @@ fn folder_of(path: &Path) -> PathBuf {
 
 /// A new, hidden file in the target's folder.
 fn create_beside(path: &Path) -> io::Result<(PathBuf, File)> {
-    let name = path
-        .file_name()
-        .ok_or_else(|| io::Error::other("it is not the name of a file"))?;
+    let name = path.file_name().ok_or_else(|| io::Error::other("it is not the name of a file"))?;
     for attempt in 0..100 {
         let mut hidden = std::ffi::OsString::from(".");
         hidden.push(name);
         hidden.push(format!(".{}-{attempt}.part", std::process::id()));
         let beside = folder_of(path).join(hidden);
-        match OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(&beside)
-        {
+        match OpenOptions::new().write(true).create_new(true).open(&beside) {
             Ok(file) => return Ok((beside, file)),
             Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {}
             Err(e) => return Err(e),

@@ -13,7 +13,7 @@ mod tests;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-pub use fit::{fit_into, fit_onto};
+pub use fit::fit_into;
 
 /// Most triangles of one geometry acceleration structure (OptiX: 2^29 primitives).
 const MAX_TRIANGLES: usize = 1 << 29;
@@ -82,17 +82,11 @@ impl MeshFormat {
     /// # Errors
     /// [`MeshError::Extension`] for any but `.obj`, `.gltf` and `.glb`.
     pub fn of(path: &Path) -> Result<Self, MeshError> {
-        let extension = path
-            .extension()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .to_ascii_lowercase();
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         match extension.as_str() {
             "obj" => Ok(Self::Obj),
             "gltf" | "glb" => Ok(Self::Gltf),
-            _ => Err(MeshError::Extension {
-                path: path.to_owned(),
-            }),
+            _ => Err(MeshError::Extension { path: path.to_owned() }),
         }
     }
 }
@@ -106,10 +100,7 @@ struct Fault {
 
 impl Fault {
     fn new(place: impl Into<String>, why: impl Into<String>) -> Self {
-        Self {
-            place: place.into(),
-            why: why.into(),
-        }
+        Self { place: place.into(), why: why.into() }
     }
 }
 
@@ -127,31 +118,19 @@ pub fn load(path: &Path) -> Result<Mesh, MeshError> {
         MeshFormat::Obj => obj::parse(&bytes),
         MeshFormat::Gltf => gltf::parse(&bytes, path.parent().unwrap_or(Path::new(""))),
     };
-    let mut mesh = parsed.map_err(|fault| MeshError::Malformed {
-        path: path.to_owned(),
-        place: fault.place,
-        why: fault.why,
-    })?;
+    let mut mesh =
+        parsed.map_err(|fault| MeshError::Malformed { path: path.to_owned(), place: fault.place, why: fault.why })?;
     if mesh.indices.is_empty() {
-        return Err(MeshError::Empty {
-            path: path.to_owned(),
-        });
+        return Err(MeshError::Empty { path: path.to_owned() });
     }
     normalize_normals(&mut mesh);
-    mesh.name = path
-        .file_stem()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned();
+    mesh.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     Ok(mesh)
 }
 
 /// Reads a whole regular file. Anything else (a directory, a pipe, a device) might never end.
 fn read_file(path: &Path) -> Result<Vec<u8>, MeshError> {
-    let fail = |why: String| MeshError::Read {
-        path: path.to_owned(),
-        why,
-    };
+    let fail = |why: String| MeshError::Read { path: path.to_owned(), why };
     let metadata = fs::metadata(path).map_err(|e| fail(e.to_string()))?;
     if !metadata.is_file() {
         return Err(fail("it is not a regular file".into()));
@@ -164,10 +143,7 @@ fn append(mesh: &mut Mesh, part: Mesh, place: &str) -> Result<(), Fault> {
     let first = mesh.positions.len();
     let triangles = mesh.indices.len() + part.indices.len();
     if triangles > MAX_TRIANGLES || first + part.positions.len() > u32::MAX as usize {
-        return Err(Fault::new(
-            place,
-            format!("more than {MAX_TRIANGLES} triangles in all, OptiX's limit"),
-        ));
+        return Err(Fault::new(place, format!("more than {MAX_TRIANGLES} triangles in all, OptiX's limit")));
     }
     mesh.normals = match (mesh.normals.take(), part.normals) {
         (None, normals) if first == 0 => normals,
@@ -178,8 +154,7 @@ fn append(mesh: &mut Mesh, part: Mesh, place: &str) -> Result<(), Fault> {
         _ => None,
     };
     // The check above keeps every sum within u32.
-    mesh.indices
-        .extend(part.indices.iter().map(|t| t.map(|i| i + first as u32)));
+    mesh.indices.extend(part.indices.iter().map(|t| t.map(|i| i + first as u32)));
     mesh.positions.extend(part.positions);
     Ok(())
 }
@@ -210,11 +185,7 @@ fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// The unit vector along `v`; `None` where it has no finite direction. Scaling first keeps the squares in range.

@@ -33,11 +33,7 @@ const IDEAL: RGBColor = RGBColor(130, 130, 130);
 /// # Errors
 /// [`ImageError`]; the target is then as it was. A curve with no estimate yet gives an empty plot that says so.
 pub fn write_plot(curve: &ErrorCurve, title: &str, path: &Path) -> Result<(), ImageError> {
-    let fail = |why: String| ImageError::Io {
-        path: path.to_owned(),
-        verb: "written",
-        why,
-    };
+    let fail = |why: String| ImageError::Io { path: path.to_owned(), verb: "written", why };
     let pixels = draw(curve, title).map_err(fail)?;
     write_beside(path, |to| encode_rgb(SIZE.0, SIZE.1, &pixels, to))
 }
@@ -67,42 +63,15 @@ fn draw_on(root: &Area<'_>, curve: &ErrorCurve, title: &str) -> Drawn {
     root.draw(&Text::new(shortened(title), (28, 18), heading))?;
     let note = (FONT, 22).into_font().color(&INK);
     root.draw(&Text::new(subtitle(curve), (28, 56), note))?;
-    let (left, right) = root
-        .margin(96, 16, 12, 12)
-        .split_horizontally(50.percent_width());
-    let errors: Vec<f64> = curve
-        .rows()
-        .iter()
-        .flat_map(|r| [r.estimated_rmse, r.true_rmse])
-        .flatten()
-        .collect();
+    let (left, right) = root.margin(96, 16, 12, 12).split_horizontally(50.percent_width());
+    let errors: Vec<f64> = curve.rows().iter().flat_map(|r| [r.estimated_rmse, r.true_rmse]).flatten().collect();
     let Some(vertical) = Axis::over("RMSE (radiance)", Base::Ten, errors) else {
-        root.draw(&Text::new(
-            "no estimate yet: it takes two samples a pixel",
-            (28, 110),
-            note_style(),
-        ))?;
+        root.draw(&Text::new("no estimate yet: it takes two samples a pixel", (28, 110), note_style()))?;
         return Ok(());
     };
     let samples = |r: &Row| r.samples as f64;
-    panel(
-        &left,
-        curve,
-        &vertical,
-        Base::Two,
-        "samples per pixel",
-        "1/√n",
-        samples,
-    )?;
-    panel(
-        &right,
-        curve,
-        &vertical,
-        Base::Ten,
-        "render time (s)",
-        "1/√t",
-        |r: &Row| r.seconds,
-    )
+    panel(&left, curve, &vertical, Base::Two, "samples per pixel", "1/√n", samples)?;
+    panel(&right, curve, &vertical, Base::Ten, "render time (s)", "1/√t", |r: &Row| r.seconds)
 }
 
 fn note_style() -> TextStyle<'static> {
@@ -112,11 +81,7 @@ fn note_style() -> TextStyle<'static> {
 /// A line that fits; control characters would draw as boxes.
 fn shortened(title: &str) -> String {
     let clean = || title.chars().map(|c| if c.is_control() { ' ' } else { c });
-    if clean().count() <= 100 {
-        clean().collect()
-    } else {
-        clean().take(99).chain(['…']).collect()
-    }
+    if clean().count() <= 100 { clean().collect() } else { clean().take(99).chain(['…']).collect() }
 }
 
 fn subtitle(curve: &ErrorCurve) -> String {
@@ -124,22 +89,14 @@ fn subtitle(curve: &ErrorCurve) -> String {
         Some(error) => format!("{:.3} ± {error:.3}", law.slope),
         None => format!("{:.3}", law.slope),
     };
-    let mut text = String::new();
-    if let Some(law) = curve.slope() {
-        text = format!(
-            "slope of the estimated error against samples: {}",
-            slope(law)
-        );
+    let mut parts = Vec::new();
+    parts.extend(curve.slope().map(|l| format!("slope of the estimated error against samples: {}", slope(l))));
+    parts.extend(curve.true_slope().map(|l| format!("slope of the true error: {}", slope(l))));
+    let rejected = curve.rows().last().map_or(0, |r| r.rejected.samples);
+    if rejected > 0 {
+        parts.push(format!("{rejected} samples were not finite"));
     }
-    if let Some(law) = curve.true_slope() {
-        text += &format!(", of the true error: {}", slope(law));
-    }
-    if let Some(last) = curve.rows().last()
-        && last.rejected.samples > 0
-    {
-        text += &format!("; {} samples were not finite", last.rejected.samples);
-    }
-    text
+    parts.join("; ")
 }
 
 fn panel(
@@ -153,20 +110,13 @@ fn panel(
 ) -> Drawn {
     let points = |y_of: fn(&Row) -> Option<f64>| -> Vec<(f64, f64)> {
         let usable = |v: f64| v > 0.0 && v.is_finite();
-        let all = curve
-            .rows()
-            .iter()
-            .filter_map(|r| Some((x_of(r), y_of(r)?)));
+        let all = curve.rows().iter().filter_map(|r| Some((x_of(r), y_of(r)?)));
         all.filter(|&(x, y)| usable(x) && usable(y)).collect()
     };
     let (estimated, measured) = (points(|r| r.estimated_rmse), points(|r| r.true_rmse));
     let all_x = estimated.iter().chain(&measured).map(|p| p.0);
     let Some(horizontal) = Axis::over(label, base, all_x) else {
-        area.draw(&Text::new(
-            "no run time was recorded",
-            (80, 40),
-            note_style(),
-        ))?;
+        area.draw(&Text::new("no run time was recorded", (80, 40), note_style()))?;
         return Ok(());
     };
     let mut chart = ChartBuilder::on(area)
@@ -187,41 +137,25 @@ fn panel(
         .y_desc(vertical.label())
         .draw()?;
 
-    let logs = |p: &[(f64, f64)]| {
-        p.iter()
-            .map(|p| (p.0.log10(), p.1.log10()))
-            .collect::<Vec<_>>()
-    };
+    let logs = |p: &[(f64, f64)]| p.iter().map(|p| (p.0.log10(), p.1.log10())).collect::<Vec<_>>();
     if let Some(ideal) = PowerLaw::through(-0.5, estimated.iter().copied()) {
-        let ends =
-            [horizontal.low(), horizontal.high()].map(|x| (x, ideal.at(10_f64.powf(x)).log10()));
-        let steps = (0..=400).map(|i| f64::from(i) / 400.0);
-        let line = steps.map(|t| {
-            (
-                ends[0].0 + t * (ends[1].0 - ends[0].0),
-                ends[0].1 + t * (ends[1].1 - ends[0].1),
-            )
-        });
-        // What lies outside the panel would be drawn along its border.
-        let inside = line.filter(|p| p.1 >= vertical.low() && p.1 <= vertical.high());
+        // In logarithms y = offset - x / 2. What lies outside the panel would be drawn along its border.
+        let offset = ideal.at(1.0).log10();
+        let from = horizontal.low().max(2.0 * (offset - vertical.high()));
+        let to = horizontal.high().min(2.0 * (offset - vertical.low()));
+        let inside = [from, to].map(|x| (x, offset - x / 2.0)).into_iter().filter(|_| from < to);
         chart
             .draw_series(DashedLineSeries::new(inside, 12, 8, IDEAL.stroke_width(3)))?
             .label(ideal_name)
             .legend(|(x, y)| PathElement::new([(x, y), (x + 36, y)], IDEAL.stroke_width(3)));
     }
-    for (points, colour, name) in [
-        (measured, TRUE, "true RMSE"),
-        (estimated, ESTIMATED, "estimated RMSE"),
-    ] {
+    for (points, colour, name) in [(measured, TRUE, "true RMSE"), (estimated, ESTIMATED, "estimated RMSE")] {
         if points.is_empty() {
             continue;
         }
         let points = logs(&points);
         chart
-            .draw_series(LineSeries::new(
-                points.iter().copied(),
-                colour.stroke_width(3),
-            ))?
+            .draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(3)))?
             .label(name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 36, y)], colour.stroke_width(4)));
         chart.draw_series(points.iter().map(|&p| Circle::new(p, 6, colour.filled())))?;

@@ -27,11 +27,7 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.progress_chars("=> "));
         }
-        Self {
-            bar,
-            start: Instant::now(),
-            shown: false,
-        }
+        Self { bar, start: Instant::now(), shown: false }
     }
 
     /// Shows that `samples` samples a pixel and `rays` rays are done, and the error if it is known.
@@ -42,8 +38,7 @@ impl Progress {
             self.shown = true;
         }
         let error = relative_error.map_or_else(String::new, |e| format!(", error {}", percent(e)));
-        self.bar
-            .set_message(format!("{}{error}", rate(rays, elapsed.as_secs_f64())));
+        self.bar.set_message(format!("{}{error}", rate(rays, elapsed.as_secs_f64())));
         self.bar.set_position(samples);
     }
 
@@ -81,17 +76,8 @@ impl fmt::Display for Summary {
         let (width, height) = self.size;
         writeln!(f, "device:          {}", self.device)?;
         writeln!(f, "wall time:       {:.3} s", self.seconds)?;
-        writeln!(
-            f,
-            "samples:         {} per pixel at {width}x{height}",
-            grouped(self.samples)
-        )?;
-        writeln!(
-            f,
-            "rays traced:     {} ({})",
-            grouped(self.rays),
-            rate(self.rays, self.seconds)
-        )?;
+        writeln!(f, "samples:         {} per pixel at {width}x{height}", grouped(self.samples))?;
+        writeln!(f, "rays traced:     {} ({})", grouped(self.rays), rate(self.rays, self.seconds))?;
         write!(f, "estimated error: ")?;
         match self.relative_error {
             Some(error) => write!(f, "{} relative standard error", percent(error))?,
@@ -99,11 +85,7 @@ impl fmt::Display for Summary {
             None => write!(f, "unknown, the picture is black")?,
         }
         if self.rejected_samples > 0 {
-            write!(
-                f,
-                "\nwarning: {} samples were not finite and were left out",
-                grouped(self.rejected_samples)
-            )?;
+            write!(f, "\nwarning: {} samples were not finite and were left out", grouped(self.rejected_samples))?;
         }
         Ok(())
     }
@@ -111,21 +93,13 @@ impl fmt::Display for Summary {
 
 /// Rays a second, in millions.
 fn rate(rays: u64, seconds: f64) -> String {
-    if seconds > 0.0 {
-        format!("{:.2} Mrays/s", rays as f64 / seconds / 1e6)
-    } else {
-        "- Mrays/s".into()
-    }
+    if seconds > 0.0 { format!("{:.2} Mrays/s", rays as f64 / seconds / 1e6) } else { "- Mrays/s".into() }
 }
 
 /// Three significant digits.
 fn percent(fraction: f64) -> String {
     let percent = fraction * 100.0;
-    let digits = if percent > 0.0 {
-        (2.0 - percent.log10().floor()).clamp(0.0, 12.0) as usize
-    } else {
-        0
-    };
+    let digits = if percent > 0.0 { (2.0 - percent.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 };
     format!("{percent:.digits$} %")
 }
 
@@ -134,7 +108,7 @@ fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut out = String::new();
     for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i) % 3 == 0 {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
             out.push(',');
         }
         out.push(digit);
@@ -165,35 +139,22 @@ mod tests {
         assert_eq!(summary.to_string(), expected);
         (summary.relative_error, summary.rejected_samples) = (None, 3);
         let text = summary.to_string();
-        assert!(text.ends_with(
-            "the picture is black\nwarning: 3 samples were not finite and were left out"
-        ));
+        assert!(text.ends_with("the picture is black\nwarning: 3 samples were not finite and were left out"));
         (summary.samples, summary.seconds) = (1, 0.0);
         let text = summary.to_string();
-        assert!(
-            text.contains("unknown, it takes two samples") && text.contains("(- Mrays/s)"),
-            "{text}"
-        );
+        assert!(text.contains("unknown, it takes two samples") && text.contains("(- Mrays/s)"), "{text}");
     }
 
     #[test]
     fn numbers_are_readable() {
-        assert_eq!(
-            [0, 999, 1000, 1_000_000].map(grouped),
-            ["0", "999", "1,000", "1,000,000"]
-        );
-        assert_eq!(
-            [0.0, 1.5, 0.1, 0.000_123_4, 1e-20].map(percent)[..4],
-            ["0 %", "150 %", "10.0 %", "0.0123 %"]
-        );
+        assert_eq!([0, 999, 1000, 1_000_000].map(grouped), ["0", "999", "1,000", "1,000,000"]);
+        assert_eq!([0.0, 1.5, 0.1, 0.000_123_4, 1e-20].map(percent)[..4], ["0 %", "150 %", "10.0 %", "0.0123 %"]);
     }
 
     #[test]
     fn a_bar_can_run_without_a_terminal() {
         let mut progress = Progress::new(4);
-        progress.start = Instant::now()
-            .checked_sub(PATIENCE)
-            .unwrap_or_else(Instant::now);
+        progress.start = Instant::now().checked_sub(PATIENCE).unwrap_or_else(Instant::now);
         for samples in 1..=5 {
             progress.update(samples, samples * 1000, (samples > 1).then_some(0.1));
         }

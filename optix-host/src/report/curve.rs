@@ -104,10 +104,7 @@ impl ErrorCurve {
         if let Some(last) = self.rows.last()
             && row.samples <= last.samples
         {
-            return Err(ReportError::RowOrder {
-                last: last.samples,
-                got: row.samples,
-            });
+            return Err(ReportError::RowOrder { last: last.samples, got: row.samples });
         }
         self.rows.push(row);
         Ok(())
@@ -130,11 +127,7 @@ impl ErrorCurve {
     /// takes over.
     #[must_use]
     pub fn true_slope(&self) -> Option<PowerLaw> {
-        PowerLaw::fit(
-            self.rows
-                .iter()
-                .filter_map(|r| Some((r.samples as f64, r.true_rmse?))),
-        )
+        PowerLaw::fit(self.rows.iter().filter_map(|r| Some((r.samples as f64, r.true_rmse?))))
     }
 
     /// Writes the curve as CSV: [`CSV_HEADER`], then a line a row.
@@ -167,10 +160,7 @@ impl ErrorCurve {
 }
 
 fn slope(rows: &[Row]) -> Option<PowerLaw> {
-    PowerLaw::fit(
-        rows.iter()
-            .filter_map(|r| Some((r.samples as f64, r.estimated_rmse?))),
-    )
+    PowerLaw::fit(rows.iter().filter_map(|r| Some((r.samples as f64, r.estimated_rmse?))))
 }
 
 /// Splits `total` samples into passes of at most `largest` (at least 1) samples that end at every power of two, so that
@@ -184,10 +174,7 @@ fn slope(rows: &[Row]) -> Option<PowerLaw> {
 pub fn pass_sizes(total: u64, largest: u32) -> impl Iterator<Item = u32> {
     let mut done = 0_u64;
     std::iter::from_fn(move || {
-        let next_row = done
-            .checked_add(1)?
-            .checked_next_power_of_two()
-            .unwrap_or(total);
+        let next_row = done.checked_add(1)?.checked_next_power_of_two().unwrap_or(total);
         let size = (next_row.min(total).saturating_sub(done)).min(u64::from(largest.max(1)));
         done += size;
         (size > 0).then_some(size as u32)

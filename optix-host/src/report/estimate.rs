@@ -84,20 +84,13 @@ impl Moments {
             }
         }
         let terms = |pixels: u64| 3.0 * pixels as f64;
-        let mean_radiance = if sampled > 0 {
-            radiance / terms(sampled)
-        } else {
-            0.0
-        };
+        let mean_radiance = if sampled > 0 { radiance / terms(sampled) } else { 0.0 };
         let rmse = (measured > 0).then(|| (variance / terms(measured)).sqrt());
         Estimate {
             mean_radiance,
             rmse,
-            relative: rmse
-                .filter(|_| mean_radiance > 0.0)
-                .map(|e| e / mean_radiance),
-            mean_error: (measured > 0 && measured == sampled)
-                .then(|| variance.sqrt() / terms(sampled)),
+            relative: rmse.filter(|_| mean_radiance > 0.0).map(|e| e / mean_radiance),
+            mean_error: (measured > 0 && measured == sampled).then(|| variance.sqrt() / terms(sampled)),
             pixels_without_samples: without_samples,
             pixels_without_variance: sampled - measured,
         }
@@ -122,23 +115,17 @@ impl Moments {
                 squares += difference * difference;
                 sum += difference;
             }
-            variance = variance
-                .zip(pixel.mean_variance())
-                .map(|(a, v)| a + v.iter().sum::<f64>());
+            variance = variance.zip(pixel.mean_variance()).map(|(a, v)| a + v.iter().sum::<f64>());
         }
         let terms = (3 * compared).max(1) as f64;
         let measured_rmse = (squares / terms).sqrt();
         let own = reference.rmse.unwrap_or(0.0);
         Ok(Comparison {
             measured_rmse,
-            corrected_rmse: reference
-                .rmse
-                .map(|r| (measured_rmse * measured_rmse - r * r).max(0.0).sqrt()),
+            corrected_rmse: reference.rmse.map(|r| (measured_rmse * measured_rmse - r * r).max(0.0).sqrt()),
             bias: sum / terms,
             // Independent pixels: the reference's mean over N terms has a variance of rmse² / N.
-            bias_error: variance
-                .filter(|_| compared > 0)
-                .map(|v| (v / terms + own * own).sqrt() / terms.sqrt()),
+            bias_error: variance.filter(|_| compared > 0).map(|v| (v / terms + own * own).sqrt() / terms.sqrt()),
             skipped: self.len() as u64 - compared,
         })
     }

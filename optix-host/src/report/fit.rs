@@ -21,20 +21,14 @@ impl PowerLaw {
     pub fn fit(points: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
         let logs = logarithms(points);
         let n = logs.len() as f64;
-        let (mx, my) = (
-            logs.iter().map(|p| p.0).sum::<f64>() / n,
-            logs.iter().map(|p| p.1).sum::<f64>() / n,
-        );
+        let (mx, my) = (logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n);
         let sxx: f64 = logs.iter().map(|p| (p.0 - mx).powi(2)).sum();
         let sxy: f64 = logs.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
         if logs.len() < 2 || sxx <= 0.0 {
             return None;
         }
         let slope = sxy / sxx;
-        let residual: f64 = logs
-            .iter()
-            .map(|p| (p.1 - my - slope * (p.0 - mx)).powi(2))
-            .sum();
+        let residual: f64 = logs.iter().map(|p| (p.1 - my - slope * (p.0 - mx)).powi(2)).sum();
         Some(Self {
             slope,
             slope_error: (logs.len() > 2).then(|| (residual / (n - 2.0) / sxx).sqrt()),
@@ -65,9 +59,5 @@ impl PowerLaw {
 
 fn logarithms(points: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let usable = |v: f64| v > 0.0 && v.is_finite();
-    points
-        .into_iter()
-        .filter(|p| usable(p.0) && usable(p.1))
-        .map(|p| (p.0.ln(), p.1.ln()))
-        .collect()
+    points.into_iter().filter(|p| usable(p.0) && usable(p.1)).map(|p| (p.0.ln(), p.1.ln())).collect()
 }

@@ -72,10 +72,7 @@ impl Moments {
     /// An empty accumulator for a picture of `pixels` pixels.
     #[must_use]
     pub fn new(pixels: usize) -> Self {
-        Self {
-            pixels: vec![Pixel::default(); pixels],
-            rejected: Rejected::default(),
-        }
+        Self { pixels: vec![Pixel::default(); pixels], rejected: Rejected::default() }
     }
 
     /// Takes in one pass of `samples` samples a pixel.
@@ -97,12 +94,7 @@ impl Moments {
         self.check_len("the film of squares", squares.len())?;
         for (pixel, (&sum, &square)) in sums.iter().zip(squares).enumerate() {
             let ([r, g, b, _], [r2, g2, b2, _]) = (sum.into(), square.into());
-            self.add(
-                pixel,
-                samples,
-                [r, g, b].map(f64::from),
-                [r2, g2, b2].map(f64::from),
-            );
+            self.add(pixel, samples, [r, g, b].map(f64::from), [r2, g2, b2].map(f64::from));
         }
         Ok(())
     }
@@ -131,11 +123,7 @@ impl Moments {
                 m2[c] = (squares[c] - sum[c] * mean[c]).max(0.0);
             }
         }
-        into.merge(&Pixel {
-            count: u64::from(samples),
-            mean,
-            m2,
-        });
+        into.merge(&Pixel { count: u64::from(samples), mean, m2 });
     }
 
     /// Takes in all that `other` has, as if its passes had been added here.
@@ -199,10 +187,7 @@ impl Moments {
     /// tell.
     #[must_use]
     pub fn mean_image(&self) -> Vec<[f32; 3]> {
-        self.pixels
-            .iter()
-            .map(|p| p.mean.map(|m| m as f32))
-            .collect()
+        self.pixels.iter().map(|p| p.mean.map(|m| m as f32)).collect()
     }
 
     pub(super) fn pixels(&self) -> &[Pixel] {
@@ -211,14 +196,6 @@ impl Moments {
 
     pub(super) fn check_len(&self, what: &'static str, got: usize) -> Result<(), ReportError> {
         let expected = self.pixels.len();
-        if got == expected {
-            Ok(())
-        } else {
-            Err(ReportError::PixelCount {
-                what,
-                expected,
-                got,
-            })
-        }
+        if got == expected { Ok(()) } else { Err(ReportError::PixelCount { what, expected, got }) }
     }
 }

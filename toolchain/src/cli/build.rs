@@ -12,12 +12,7 @@ pub(super) fn run(arch: &str, path: Option<PathBuf>) -> Outcome {
     let workspace = Workspace::of(&here)?;
     let crates: Vec<PathBuf> = match path {
         Some(path) => vec![path],
-        None => workspace
-            .packages
-            .iter()
-            .filter(|p| p.has_shaders)
-            .map(|p| p.dir().to_path_buf())
-            .collect(),
+        None => workspace.packages.iter().filter(|p| p.has_shaders).map(|p| p.dir().to_path_buf()).collect(),
     };
     if crates.is_empty() {
         return Err(Failure(format!(
@@ -27,29 +22,24 @@ pub(super) fn run(arch: &str, path: Option<PathBuf>) -> Outcome {
         )));
     }
     let area = workspace.target_dir.join("optix");
-    crates
-        .iter()
-        .try_for_each(|path| build(path, arch, &area))?;
+    crates.iter().try_for_each(|path| build(path, arch, &area))?;
     Ok(ExitCode::SUCCESS)
 }
 
 fn build(path: &Path, arch: &str, area: &Path) -> Result<(), Failure> {
-    let built = Shaders::new(path)
-        .arch(arch)
-        .quiet(false)
-        .compile_in(area)?;
+    let built = Shaders::new(path).arch(arch).quiet(false).compile_in(area)?;
     let folder = area.join("ptx");
     let ptx = folder.join(format!("{}.ptx", built.name));
     std::fs::create_dir_all(&folder)
         .and_then(|()| std::fs::write(&ptx, &built.text))
         .map_err(|e| Failure(format!("cannot write {}: {e}", ptx.display())))?;
 
-    println!("{}: {} bytes, {arch}", ptx.display(), built.text.len());
+    say!("{}: {} bytes, {arch}", ptx.display(), built.text.len());
     for entry in &built.entries {
-        println!("    {entry}");
+        say!("    {entry}");
     }
     for function in &built.functions {
-        println!("    {function} (a function that is called, not inlined)");
+        say!("    {function} (a function that is called, not inlined)");
     }
     Ok(())
 }

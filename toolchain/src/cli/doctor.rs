@@ -13,29 +13,16 @@ const DRIVER: &str = "driver 570 or newer: https://www.nvidia.com/drivers";
 
 pub(super) fn run() -> Outcome {
     let can_compile = device_compilers();
-    report(
-        "cargo",
-        program_version(cargo()),
-        "install it from https://rustup.rs",
-    );
+    report("cargo", program_version(cargo()), "install it from https://rustup.rs");
     driver();
     optix();
-    println!();
-    println!("code generators besides rustc's own (optional):");
+    say!("");
+    say!("code generators besides rustc's own (optional):");
     nvvm();
-    let ptxas = program_version("ptxas").map(|text| {
-        text.split("release ")
-            .last()
-            .unwrap_or_default()
-            .to_string()
-    });
-    report(
-        "ptxas",
-        ptxas,
-        "it is in the CUDA toolkit, and in `pip install nvidia-cuda-nvcc`",
-    );
-    println!();
-    println!(
+    let ptxas = program_version("ptxas").map(|text| text.split("release ").last().unwrap_or_default().to_string());
+    report("ptxas", ptxas, "it is in the CUDA toolkit, and in `pip install nvidia-cuda-nvcc`");
+    say!("");
+    say!(
         "{}",
         if can_compile {
             "This machine can compile shaders."
@@ -43,19 +30,15 @@ pub(super) fn run() -> Outcome {
             "This machine can't compile shaders: `cargo optix setup`."
         }
     );
-    Ok(if can_compile {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    })
+    Ok(if can_compile { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 /// One line: what it is and what was found, or what is missing and what fixes it.
 fn report(what: &str, found: Result<String, String>, fix: &str) {
     match found {
-        Ok(found) => println!("  ok      {what}: {found}"),
-        Err(reason) if reason.is_empty() => println!("  missing {what}; {fix}"),
-        Err(reason) => println!("  missing {what}: {reason}; {fix}"),
+        Ok(found) => say!("  ok      {what}: {found}"),
+        Err(reason) if reason.is_empty() => say!("  missing {what}; {fix}"),
+        Err(reason) => say!("  missing {what}: {reason}; {fix}"),
     }
 }
 
@@ -68,11 +51,8 @@ fn device_compilers() -> bool {
                 let note = if chosen { "also possible" } else { "used" };
                 chosen = true;
                 let archs = (compiler.archs.first(), compiler.archs.last());
-                let archs = if let (Some(first), Some(last)) = archs {
-                    format!("{first} to {last}")
-                } else {
-                    String::new()
-                };
+                let archs =
+                    if let (Some(first), Some(last)) = archs { format!("{first} to {last}") } else { String::new() };
                 report(
                     "device compiler",
                     Ok(format!(
@@ -82,10 +62,7 @@ fn device_compilers() -> bool {
                     "",
                 );
             }
-            Err(rejected) => println!(
-                "  -       {origin} is no device compiler: {rejected}; {}",
-                fix(&rejected)
-            ),
+            Err(rejected) => say!("  -       {origin} is no device compiler: {rejected}; {}", fix(&rejected)),
         }
     }
     if !chosen {
@@ -97,20 +74,11 @@ fn device_compilers() -> bool {
 /// The command that makes a device compiler of a `rustc`.
 fn fix(rejected: &Rejected) -> String {
     match &rejected.why {
-        Why::NoSources(path) if path.starts_with("/usr") => {
-            "install its distribution's package of sources".into()
-        }
+        Why::NoSources(path) if path.starts_with("/usr") => "install its distribution's package of sources".into(),
         Why::NoSources(path) => {
             // <rustup>/toolchains/<name>/lib/rustlib/src/rust/library
-            let toolchain = path
-                .ancestors()
-                .nth(5)
-                .and_then(|root| root.file_name())
-                .unwrap_or_default();
-            format!(
-                "`rustup component add rust-src --toolchain {}`",
-                toolchain.to_string_lossy()
-            )
+            let toolchain = path.ancestors().nth(5).and_then(|root| root.file_name()).unwrap_or_default();
+            format!("`rustup component add rust-src --toolchain {}`", toolchain.to_string_lossy())
         }
         Why::TooOld(_) => format!("{MINIMUM} is needed: `rustup update`"),
         _ => "it is passed over".into(),
@@ -120,16 +88,12 @@ fn fix(rejected: &Rejected) -> String {
 fn driver() {
     let kernel = std::fs::read_to_string("/proc/driver/nvidia/version").unwrap_or_default();
     // NVRM version: NVIDIA UNIX x86_64 Kernel Module  580.159.04  ..
-    let is_version =
-        |word: &&str| word.contains('.') && word.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+    let is_version = |word: &&str| word.contains('.') && word.bytes().all(|b| b.is_ascii_digit() || b == b'.');
     let kernel = kernel.split_whitespace().find(is_version);
     let driver = Driver::query();
     let text = driver.as_ref().map(|driver| {
         let (major, minor) = driver.cuda;
-        format!(
-            "{}, CUDA {major}.{minor}",
-            kernel.unwrap_or("version unknown")
-        )
+        format!("{}, CUDA {major}.{minor}", kernel.unwrap_or("version unknown"))
     });
     report("NVIDIA driver", text.map_err(|_| String::new()), DRIVER);
     let Ok(driver) = driver else { return };
@@ -138,43 +102,25 @@ fn driver() {
         report("GPU", Ok(format!("{}, sm_{major}{minor}", gpu.name)), "");
     }
     if driver.gpus.is_empty() {
-        report(
-            "GPU",
-            Err(String::new()),
-            "the driver sees none: `nvidia-smi` says why",
-        );
+        report("GPU", Err(String::new()), "the driver sees none: `nvidia-smi` says why");
     }
 }
 
 fn optix() {
     let abi = libraries::OPTIX_ABI;
     let found = match libraries::optix_accepts_abi() {
-        Ok(true) => Ok(format!(
-            "{}, function table {abi} (OptiX 9.0)",
-            libraries::OPTIX
-        )),
-        Ok(false) => Err(format!(
-            "{} is older than OptiX 9.0 and refuses function table {abi}",
-            libraries::OPTIX
-        )),
+        Ok(true) => Ok(format!("{}, function table {abi} (OptiX 9.0)", libraries::OPTIX)),
+        Ok(false) => Err(format!("{} is older than OptiX 9.0 and refuses function table {abi}", libraries::OPTIX)),
         Err(_) => Err(format!("no {}", libraries::OPTIX)),
     };
-    report(
-        "OptiX",
-        found,
-        &format!("it comes with {DRIVER}; without it programs run on the CPU"),
-    );
+    report("OptiX", found, &format!("it comes with {DRIVER}; without it programs run on the CPU"));
 }
 
 fn nvvm() {
     let found = libraries::nvvm();
     for nvvm in &found {
-        let (major, minor) = nvvm.version;
-        report(
-            "libNVVM",
-            Ok(format!("{}, {major}.{minor}", nvvm.path.display())),
-            "",
-        );
+        let (major, minor) = nvvm.ir;
+        report("libNVVM", Ok(format!("{}, NVVM IR {major}.{minor}", nvvm.path.display())), "");
     }
     if found.is_empty() {
         report(
@@ -187,13 +133,7 @@ fn nvvm() {
 
 /// The last line of what a program says to `--version`.
 fn program_version(program: impl Into<PathBuf>) -> Result<String, String> {
-    let output = Command::new(program.into())
-        .arg("--version")
-        .output()
-        .map_err(|_| String::new())?;
+    let output = Command::new(program.into()).arg("--version").output().map_err(|_| String::new())?;
     let text = String::from_utf8_lossy(&output.stdout);
-    text.lines()
-        .last()
-        .map(|line| line.trim().to_string())
-        .ok_or_else(String::new)
+    text.lines().last().map(|line| line.trim().to_string()).ok_or_else(String::new)
 }

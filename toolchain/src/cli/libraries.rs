@@ -7,16 +7,8 @@ use std::process::Command;
 use libloading::{AsFilename, Library, Symbol};
 
 /// OptiX, which is part of the driver.
-pub(super) const OPTIX: &str = if cfg!(windows) {
-    "nvoptix.dll"
-} else {
-    "libnvoptix.so.1"
-};
-const CUDA: &str = if cfg!(windows) {
-    "nvcuda.dll"
-} else {
-    "libcuda.so.1"
-};
+pub(super) const OPTIX: &str = if cfg!(windows) { "nvoptix.dll" } else { "libnvoptix.so.1" };
+const CUDA: &str = if cfg!(windows) { "nvcuda.dll" } else { "libcuda.so.1" };
 
 /// The version of OptiX's function table that is asked for, and its number of functions: OptiX 9.0.
 pub(super) const OPTIX_ABI: c_int = 105;
@@ -66,10 +58,7 @@ impl Driver {
         unsafe {
             let mut version = 0;
             function::<GetVersion>(&library, "cuDriverGetVersion")?(&mut version);
-            let mut driver = Self {
-                cuda: (version / 1000, version % 1000 / 10),
-                gpus: Vec::new(),
-            };
+            let mut driver = Self { cuda: (version / 1000, version % 1000 / 10), gpus: Vec::new() };
             let mut count = 0;
             let ready = function::<Init>(&library, "cuInit")?(0) == 0
                 && function::<GetVersion>(&library, "cuDeviceGetCount")?(&mut count) == 0;
@@ -83,10 +72,7 @@ impl Driver {
                 attribute(&mut major, MAJOR, device);
                 attribute(&mut minor, MINOR, device);
                 let name = CStr::from_ptr(name.as_ptr()).to_string_lossy().into_owned();
-                driver.gpus.push(Gpu {
-                    name,
-                    compute_capability: (major, minor),
-                });
+                driver.gpus.push(Gpu { name, compute_capability: (major, minor) });
             }
             Ok(driver)
         }
@@ -95,57 +81,44 @@ impl Driver {
 
 /// Whether the installed OptiX speaks [`OPTIX_ABI`]; the error says what is missing.
 pub(super) fn optix_accepts_abi() -> Result<bool, String> {
-    type Query = unsafe extern "C" fn(
-        c_int,
-        c_uint,
-        *mut c_void,
-        *const *const c_void,
-        *mut c_void,
-        usize,
-    ) -> c_int;
+    type Query = unsafe extern "C" fn(c_int, c_uint, *mut c_void, *const *const c_void, *mut c_void, usize) -> c_int;
     let library = open(OPTIX)?;
     let mut table = [0_usize; OPTIX_FUNCTIONS];
     // SAFETY: the type is that of the one function which the library exports; with no options their pointers are not
     // read; the table is as large as is said.
     let result = unsafe {
         let query = function::<Query>(&library, "optixQueryFunctionTable")?;
-        query(
-            OPTIX_ABI,
-            0,
-            std::ptr::null_mut(),
-            std::ptr::null(),
-            table.as_mut_ptr().cast(),
-            size_of_val(&table),
-        )
+        query(OPTIX_ABI, 0, std::ptr::null_mut(), std::ptr::null(), table.as_mut_ptr().cast(), size_of_val(&table))
     };
     Ok(result == 0)
 }
 
 /// A libNVVM on this machine.
 pub(super) struct Nvvm {
+    /// The file itself, whose path tells the version of the toolkit; links do not.
     pub path: PathBuf,
-    pub version: (c_int, c_int),
+    /// The NVVM IR it reads.
+    pub ir: (c_int, c_int),
 }
 
 /// Every libNVVM in the places where CUDA toolkits, drivers and Python wheels put it.
 pub(super) fn nvvm() -> Vec<Nvvm> {
-    let mut found: Vec<Nvvm> = Vec::new();
-    for path in nvvm_paths() {
-        let version = nvvm_version(&path);
-        let known = found.iter().any(|nvvm| same_file(&nvvm.path, &path));
-        if let (Ok(version), false) = (version, known) {
-            found.push(Nvvm { path, version });
-        }
-    }
-    found
+    let mut files: Vec<PathBuf> = nvvm_paths().iter().filter_map(|path| path.canonicalize().ok()).collect();
+    files.sort();
+    files.dedup();
+    let open = |path: PathBuf| nvvm_ir(&path).ok().map(|ir| Nvvm { path, ir });
+    files.into_iter().filter_map(open).collect()
 }
 
-fn nvvm_version(path: &Path) -> Result<(c_int, c_int), String> {
-    type Version = unsafe extern "C" fn(*mut c_int, *mut c_int) -> c_int;
+fn nvvm_ir(path: &Path) -> Result<(c_int, c_int), String> {
+    type Version = unsafe extern "C" fn(*mut c_int, *mut c_int, *mut c_int, *mut c_int) -> c_int;
     let library = open(path)?;
-    let (mut major, mut minor) = (0, 0);
-    // SAFETY: this is nvvmVersion's type, and both pointers are to live integers.
-    unsafe { function::<Version>(&library, "nvvmVersion")?(&mut major, &mut minor) };
+    let (mut major, mut minor, mut debug) = (0, 0, (0, 0));
+    // SAFETY: this is nvvmIRVersion's type, and the pointers are to live integers.
+    unsafe {
+        let version = function::<Version>(&library, "nvvmIRVersion")?;
+        version(&mut major, &mut minor, &mut debug.0, &mut debug.1);
+    }
     Ok((major, minor))
 }
 
@@ -154,65 +127,33 @@ fn nvvm_paths() -> Vec<PathBuf> {
     for name in ["CUDA_HOME", "CUDA_PATH", "CUDA_ROOT"] {
         folders.extend(std::env::var_os(name).map(|root| PathBuf::from(root).join("nvvm/lib64")));
     }
-    folders.extend(
-        list(Path::new("/usr/local"), "cuda")
-            .into_iter()
-            .map(|root| root.join("nvvm/lib64")),
-    );
+    folders.extend(list(Path::new("/usr/local"), "cuda").into_iter().map(|root| root.join("nvvm/lib64")));
     folders.push("/opt/cuda/nvvm/lib64".into());
     // The driver has one too, under a name of its own.
-    folders.extend(
-        [
-            "/usr/lib/x86_64-linux-gnu",
-            "/usr/lib64",
-            "/usr/lib/aarch64-linux-gnu",
-        ]
-        .map(PathBuf::from),
-    );
-    folders.extend(
-        std::env::var_os("LD_LIBRARY_PATH")
-            .iter()
-            .flat_map(std::env::split_paths),
-    );
+    folders.extend(["/usr/lib/x86_64-linux-gnu", "/usr/lib64", "/usr/lib/aarch64-linux-gnu"].map(PathBuf::from));
+    folders.extend(std::env::var_os("LD_LIBRARY_PATH").iter().flat_map(std::env::split_paths));
     for packages in python_packages() {
         let nvidia = packages.join("nvidia");
         folders.push(nvidia.join("cuda_nvcc/nvvm/lib64"));
-        folders.extend(
-            list(&nvidia, "cu")
-                .into_iter()
-                .flat_map(|cu| [cu.join("lib"), cu.join("nvvm/lib64")]),
-        );
+        folders.extend(list(&nvidia, "cu").into_iter().flat_map(|cu| [cu.join("lib"), cu.join("nvvm/lib64")]));
     }
-    let libraries = folders
-        .iter()
-        .flat_map(|dir| ["libnvvm.so", "libnvidia-nvvm.so"].map(|name| list(dir, name)));
+    let libraries = folders.iter().flat_map(|dir| ["libnvvm.so", "libnvidia-nvvm.so"].map(|name| list(dir, name)));
     libraries.flatten().collect()
 }
 
 /// Where the Python in use has its packages.
 fn python_packages() -> Vec<PathBuf> {
-    let script =
-        "import site; print('\\n'.join(site.getsitepackages() + [site.getusersitepackages()]))";
+    let script = "import site; print('\\n'.join(site.getsitepackages() + [site.getusersitepackages()]))";
     let output = Command::new("python3").args(["-c", script]).output();
-    let text = output
-        .map(|output| String::from_utf8_lossy(&output.stdout).into_owned())
-        .unwrap_or_default();
+    let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
     text.lines().map(PathBuf::from).collect()
 }
 
 /// The entries of a folder whose names start with `prefix`, in order.
 fn list(dir: &Path, prefix: &str) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(dir)
-        .map(|entries| entries.flatten().collect())
-        .unwrap_or_else(|_| Vec::new());
-    let matching = entries
-        .iter()
-        .filter(|entry| entry.file_name().to_string_lossy().starts_with(prefix));
+    let entries = std::fs::read_dir(dir).map(|entries| entries.flatten().collect()).unwrap_or_else(|_| Vec::new());
+    let matching = entries.iter().filter(|entry| entry.file_name().to_string_lossy().starts_with(prefix));
     let mut paths: Vec<PathBuf> = matching.map(|entry| entry.path()).collect();
     paths.sort();
     paths
-}
-
-fn same_file(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }

@@ -1,5 +1,10 @@
 //! The command line of `cargo optix`: one module a subcommand.
 
+/// `println!` that ends the process quietly where nobody reads any more, as in `cargo optix doctor | head`.
+macro_rules! say {
+    ($($text:tt)*) => { $crate::cli::say(format_args!($($text)*)) };
+}
+
 mod build;
 mod doctor;
 mod libraries;
@@ -27,7 +32,7 @@ enum Action {
     Doctor,
     /// Install a device compiler, if there is none.
     Setup,
-    /// Compile shader crates to target/optix/ptx/<CRATE>.ptx.
+    /// Compile shader crates to `target/optix/ptx/CRATE.ptx`.
     ///
     /// Without --crate, every package of the workspace that has `[package.metadata.optix] shaders = true`.
     Build {
@@ -94,6 +99,14 @@ fn cargo() -> std::ffi::OsString {
     std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
+/// Prints a line to standard output; see the macro of this name.
+fn say(line: fmt::Arguments<'_>) {
+    use std::io::Write;
+    if writeln!(std::io::stdout(), "{line}").is_err() {
+        std::process::exit(1);
+    }
+}
+
 fn current_dir() -> Result<PathBuf, Failure> {
     std::env::current_dir().map_err(|e| Failure(format!("cannot tell the current folder: {e}")))
 }
@@ -110,15 +123,7 @@ mod tests {
 
     #[test]
     fn arguments_of_test_follow_two_dashes() {
-        let parsed = Arguments::try_parse_from([
-            "cargo optix",
-            "test",
-            "--",
-            "-p",
-            "x",
-            "--",
-            "--nocapture",
-        ]);
+        let parsed = Arguments::try_parse_from(["cargo optix", "test", "--", "-p", "x", "--", "--nocapture"]);
         assert!(
             matches!(parsed.map(|p| p.command), Ok(Action::Test { args }) if args == ["-p", "x", "--", "--nocapture"])
         );

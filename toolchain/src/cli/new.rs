@@ -10,46 +10,25 @@ const FILES: [(&str, &str); 6] = [
     ("Cargo.toml", include_str!("../../templates/new/host.toml")),
     ("build.rs", include_str!("../../templates/new/build.rs")),
     ("src/main.rs", include_str!("../../templates/new/main.rs")),
-    (
-        "shaders/Cargo.toml",
-        include_str!("../../templates/new/shaders.toml"),
-    ),
-    (
-        "shaders/src/lib.rs",
-        include_str!("../../templates/new/shaders.rs"),
-    ),
+    ("shaders/Cargo.toml", include_str!("../../templates/new/shaders.toml")),
+    ("shaders/src/lib.rs", include_str!("../../templates/new/shaders.rs")),
     (".gitignore", "/target\n"),
 ];
 
 pub(super) fn run(path: &Path) -> Outcome {
-    let name = path
-        .file_name()
-        .and_then(|name| name.to_str())
-        .unwrap_or_default();
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     check_name(name)?;
     if path.exists() {
-        return Err(Failure(format!(
-            "{} exists already; choose another name",
-            path.display()
-        )));
+        return Err(Failure(format!("{} exists already; choose another name", path.display())));
     }
     for (file, template) in FILES {
         let file = path.join(file);
         let folder = file.parent().unwrap_or(path);
         std::fs::create_dir_all(folder)
-            .and_then(|()| {
-                std::fs::write(
-                    &file,
-                    fill(template, name, Path::new(env!("CARGO_MANIFEST_DIR"))),
-                )
-            })
+            .and_then(|()| std::fs::write(&file, fill(template, name, Path::new(env!("CARGO_MANIFEST_DIR")))))
             .map_err(|e| Failure(format!("cannot write {}: {e}", file.display())))?;
     }
-    println!(
-        "Made {}. To run it: cd {} && cargo run --release",
-        path.display(),
-        path.display()
-    );
+    say!("Made {}. To run it: cd {} && cargo run --release", path.display(), path.display());
     Ok(ExitCode::SUCCESS)
 }
 
@@ -85,9 +64,7 @@ fn check_name(name: &str) -> Result<(), Failure> {
 /// Fills in a template. `toolchain` is the folder that this command was compiled in: where the other crates lie beside
 /// it, the project uses those, otherwise the published ones of this command's version.
 fn fill(template: &str, name: &str, toolchain: &Path) -> String {
-    let checkout = toolchain
-        .parent()
-        .filter(|root| root.join("optix-host/Cargo.toml").is_file());
+    let checkout = toolchain.parent().filter(|root| root.join("optix-host/Cargo.toml").is_file());
     let dependency = |folder: &str| match checkout {
         // A literal string, in which a backslash is itself.
         Some(root) => format!("path = '{}'", root.join(folder).display()),
@@ -111,18 +88,7 @@ mod tests {
         for good in ["demo", "my-tracer", "a1_b"] {
             assert!(check_name(good).is_ok(), "{good}");
         }
-        for bad in [
-            "",
-            "1st",
-            "a b",
-            "a/b",
-            "über",
-            "test",
-            "proc-macro",
-            "optix-host",
-            "..",
-            "-x",
-        ] {
+        for bad in ["", "1st", "a b", "a/b", "über", "test", "proc-macro", "optix-host", "..", "-x"] {
             assert!(check_name(bad).is_err(), "{bad}");
         }
     }

@@ -14,21 +14,18 @@ const PACKAGES: [&str; 2] = ["rustc-web", "rust-web-src"];
 pub(super) fn run() -> Result<DeviceCompiler, Failure> {
     match DeviceCompiler::find() {
         Ok(compiler) => {
-            println!("device compiler: {}", describe(&compiler));
+            say!("device compiler: {}", describe(&compiler));
             return Ok(compiler);
         }
         Err(Error::NoDeviceCompiler { .. }) => {}
         Err(error) => return Err(error.into()),
     }
     let mut failed = Vec::new();
-    for (name, install) in [
-        ("apt-get", apt as fn() -> Result<(), String>),
-        ("rustup", rustup),
-    ] {
+    for (name, install) in [("apt-get", apt as fn() -> Result<(), String>), ("rustup", rustup)] {
         match install() {
             Ok(()) => match DeviceCompiler::find() {
                 Ok(compiler) => {
-                    println!("device compiler: {}", describe(&compiler));
+                    say!("device compiler: {}", describe(&compiler));
                     return Ok(compiler);
                 }
                 Err(error) => failed.push(format!("{name}: {error}")),
@@ -46,12 +43,7 @@ pub(super) fn run() -> Result<DeviceCompiler, Failure> {
 
 /// A device compiler in one line.
 pub(super) fn describe(compiler: &DeviceCompiler) -> String {
-    format!(
-        "{}, rustc {}, LLVM {}",
-        compiler.rustc.display(),
-        compiler.release,
-        compiler.llvm
-    )
+    format!("{}, rustc {}, LLVM {}", compiler.rustc.display(), compiler.release, compiler.llvm)
 }
 
 fn apt_command() -> String {
@@ -69,49 +61,24 @@ fn apt() -> Result<(), String> {
         show(Command::new("apt-get").args(["-q", "update"]))?;
     }
     if !apt_has_candidate() {
-        return Err(format!(
-            "{} {MINIMUM} or newer is not in this system's package lists",
-            PACKAGES[0]
-        ));
+        return Err(format!("{} {MINIMUM} or newer is not in this system's package lists", PACKAGES[0]));
     }
     // Never at the price of a package that is here: `rustc-web` conflicts with `rustc`.
-    show(
-        Command::new("apt-get")
-            .args([
-                "-q",
-                "install",
-                "-y",
-                "--no-install-recommends",
-                "--no-remove",
-            ])
-            .args(PACKAGES),
-    )
+    show(Command::new("apt-get").args(["-q", "install", "-y", "--no-install-recommends", "--no-remove"]).args(PACKAGES))
 }
 
 /// Whether apt's package lists have both packages, new enough.
 fn apt_has_candidate() -> bool {
     PACKAGES.iter().all(|package| {
-        let output = Command::new("apt-cache")
-            .args(["policy", package])
-            .env("LC_ALL", "C")
-            .output();
-        let text = output
-            .map(|output| String::from_utf8_lossy(&output.stdout).into_owned())
-            .unwrap_or_default();
-        let candidate = text
-            .lines()
-            .find_map(|line| line.trim().strip_prefix("Candidate:"));
-        candidate
-            .and_then(Release::parse)
-            .is_some_and(|release| release >= MINIMUM)
+        let output = Command::new("apt-cache").args(["policy", package]).env("LC_ALL", "C").output();
+        let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
+        let candidate = text.lines().find_map(|line| line.trim().strip_prefix("Candidate:"));
+        candidate.and_then(Release::parse).is_some_and(|release| release >= MINIMUM)
     })
 }
 
 fn rustup() -> Result<(), String> {
-    let Ok(output) = Command::new("rustup")
-        .args(["show", "active-toolchain"])
-        .output()
-    else {
+    let Ok(output) = Command::new("rustup").args(["show", "active-toolchain"]).output() else {
         return Err("not here".into());
     };
     if !output.status.success() {
@@ -123,11 +90,8 @@ fn rustup() -> Result<(), String> {
 /// Runs a command after saying so, its output passing through.
 fn show(command: &mut Command) -> Result<(), String> {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
-    let line = words
-        .map(|word| word.to_string_lossy())
-        .collect::<Vec<_>>()
-        .join(" ");
-    println!("running: {line}");
+    let line = words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ");
+    say!("running: {line}");
     match command.env("DEBIAN_FRONTEND", "noninteractive").status() {
         Ok(status) if status.success() => Ok(()),
         Ok(status) => Err(format!("`{line}` failed ({status})")),

@@ -17,8 +17,7 @@ pub(super) fn run(args: &[String]) -> Outcome {
     command.args(["test", "--workspace"]).args(args);
     // `cargo run`, which the workspace's alias for this command is, describes the package of this command.
     for (name, _) in std::env::vars_os() {
-        let of_this_package =
-            |name: &str| name.starts_with("CARGO_PKG_") || name.starts_with("CARGO_MANIFEST_");
+        let of_this_package = |name: &str| name.starts_with("CARGO_PKG_") || name.starts_with("CARGO_MANIFEST_");
         if name.to_str().is_some_and(of_this_package) {
             command.env_remove(name);
         }
@@ -26,17 +25,12 @@ pub(super) fn run(args: &[String]) -> Outcome {
     if gpu {
         command.env(GPU_SWITCH, "1");
     }
-    let status = command.status().map_err(|e| {
-        Failure(format!(
-            "cannot run cargo: {e}; install it from https://rustup.rs"
-        ))
-    })?;
+    let status =
+        command.status().map_err(|e| Failure(format!("cannot run cargo: {e}; install it from https://rustup.rs")))?;
     if !gpu {
-        println!("GPU tests: not run, no {}", libraries::OPTIX);
+        say!("GPU tests: not run, no {}", libraries::OPTIX);
     }
     // No code: ended by a signal.
-    let code = status
-        .code()
-        .map_or(1, |code| u8::try_from(code).unwrap_or(1));
+    let code = status.code().map_or(1, |code| u8::try_from(code).unwrap_or(1));
     Ok(ExitCode::from(code))
 }

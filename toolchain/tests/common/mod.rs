@@ -21,9 +21,7 @@ pub fn shader_crate(dir: &Path) -> PathBuf {
     let shaders = dir.join("shaders");
     fs::create_dir_all(shaders.join("src")).expect("writable");
     for file in ["Cargo.toml", "src/lib.rs"] {
-        let from = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("tests/fixture")
-            .join(file);
+        let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixture").join(file);
         fs::copy(from, shaders.join(file)).expect("the fixture is there");
     }
     // The versions that are downloaded already.

@@ -12,11 +12,13 @@ mod leaf;
 mod light;
 mod surface;
 
-pub use ball::{Ball, BallHit, ball, mirror};
-pub use camera::{Pinhole, camera};
-pub use leaf::{Leaf, cut_out, leaf};
-pub use light::{AreaLight, Emitter, emitter};
-pub use surface::{Lambert, Smooth, lambert, smooth};
+pub use ball::{Ball, BallHit};
+pub use camera::Pinhole;
+pub use leaf::Leaf;
+pub use light::{AreaLight, Emitter};
+#[cfg(not(target_arch = "nvptx64"))]
+pub use surface::SmoothHost;
+pub use surface::{Lambert, Smooth};
 
 use optix_device_rs::prelude::*;
 
@@ -104,17 +106,23 @@ pipeline! {
     /// The path tracer.
     pub struct PathTracer {
         params: Frame,
-        raygen: [camera],
+        raygen: [camera::camera],
         rays: {
             Radiance { miss: dark },
             Shadow { miss: lit },
         },
         hitgroups: {
-            Lambert on Triangles => { Radiance { closesthit: lambert }, Shadow {} },
-            Smooth on Triangles => { Radiance { closesthit: smooth }, Shadow {} },
-            Emitter on Triangles => { Radiance { closesthit: emitter }, Shadow {} },
-            Leaf on Triangles => { Radiance { closesthit: leaf, anyhit: cut_out }, Shadow { anyhit: cut_out } },
-            Ball on Custom => { Radiance { intersection: ball, closesthit: mirror }, Shadow { intersection: ball } },
+            Lambert on Triangles => { Radiance { closesthit: surface::lambert }, Shadow {} },
+            Smooth on Triangles => { Radiance { closesthit: surface::smooth }, Shadow {} },
+            Emitter on Triangles => { Radiance { closesthit: light::emitter }, Shadow {} },
+            Leaf on Triangles => {
+                Radiance { closesthit: leaf::leaf, anyhit: leaf::cut_out },
+                Shadow { anyhit: leaf::cut_out },
+            },
+            Ball on Custom => {
+                Radiance { intersection: ball::ball, closesthit: ball::mirror },
+                Shadow { intersection: ball::ball },
+            },
         },
     }
 }

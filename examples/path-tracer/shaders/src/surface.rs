@@ -60,10 +60,9 @@ pub(crate) fn diffuse(
     let mut rng = ray.rng;
     // Both normals on the side that the ray came from.
     let incoming = hit.world_ray_direction();
-    let facing = |n: Vec3| if n.dot(incoming) > 0.0 { -n } else { n };
-    let geometric = facing(point.normal);
-    let normal = if shading.dot(geometric) * point.normal.dot(geometric) < 0.0 { -shading } else { shading };
-    let normal = if point.normal.dot(incoming) > 0.0 { -normal } else { normal };
+    let geometric = if point.normal.dot(incoming) > 0.0 { -point.normal } else { point.normal };
+    let normal = if shading.dot(geometric) < 0.0 { -shading } else { shading };
+    // A shading normal that the ray sees from behind is no use.
     let normal = if normal.dot(incoming) > 0.0 { geometric } else { normal };
 
     let (light, shadow_rays) = direct(hit, point, geometric, normal, rng.next_vec2());

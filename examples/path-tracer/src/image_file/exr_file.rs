@@ -3,8 +3,7 @@
 use std::io::{self, Cursor, Seek, Write};
 
 use exr::prelude::{
-    Encoding, MetaData, ReadChannels, ReadLayers, SpecificChannels, Vec2, WritableImage,
-    read as read_exr,
+    Encoding, MetaData, ReadChannels, ReadLayers, SpecificChannels, Vec2, WritableImage, read as read_exr,
 };
 
 use super::{Image, MAX_PIXELS};
@@ -21,22 +20,14 @@ pub(super) fn write(image: &Image, to: &mut (impl Write + Seek)) -> io::Result<(
         Encoding::SMALL_LOSSLESS,
         channels,
     );
-    exr::prelude::Image::from_layer(layer)
-        .write()
-        .non_parallel()
-        .to_buffered(to)
-        .map_err(io::Error::other)
+    exr::prelude::Image::from_layer(layer).write().non_parallel().to_buffered(to).map_err(io::Error::other)
 }
 
 pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), String> {
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|e| describe(&e))?;
     let size = meta.headers.first().ok_or("has no layer")?.layer_size;
     if size.area() as u64 > MAX_PIXELS {
-        return Err(format!(
-            "{}x{} is more than 2^30 pixels",
-            size.width(),
-            size.height()
-        ));
+        return Err(format!("{}x{} is more than 2^30 pixels", size.width(), size.height()));
     }
     // Each is at least 1, so neither exceeds the product.
     Ok((size.width() as u32, size.height() as u32))
@@ -65,6 +56,5 @@ pub(super) fn read(bytes: &[u8]) -> Result<Image, String> {
 }
 
 fn describe(error: &exr::error::Error) -> String {
-    format!("is not a readable OpenEXR picture with channels R, G and B: {error}")
-        .replace('\n', " ")
+    format!("is not a readable OpenEXR picture with channels R, G and B: {error}").replace('\n', " ")
 }

@@ -42,9 +42,7 @@ fn header(bytes: &[u8]) -> Result<Header, String> {
         while bytes.get(at).is_some_and(|b| !b.is_ascii_whitespace()) && at - start < 32 {
             at += 1;
         }
-        let word = std::str::from_utf8(&bytes[start..at])
-            .unwrap_or("?")
-            .to_owned();
+        let word = std::str::from_utf8(&bytes[start..at]).unwrap_or("?").to_owned();
         at += 1;
         (word, at)
     };
@@ -57,70 +55,33 @@ fn header(bytes: &[u8]) -> Result<Header, String> {
         text if text.is_empty() => Err(format!("ends within the header: it has no {what}")),
         text => match text.parse::<u32>() {
             Ok(extent) if extent > 0 => Ok(extent),
-            _ => Err(format!(
-                "the {what} in the header, {text:?}, is not a positive integer"
-            )),
+            _ => Err(format!("the {what} in the header, {text:?}, is not a positive integer")),
         },
     };
     let (width, height) = (extent("width")?, extent("height")?);
     let (scale, data) = word();
     match scale.parse::<f32>() {
-        Ok(s) if s.is_finite() && s != 0.0 => Ok(Header {
-            width,
-            height,
-            channels,
-            little_endian: s < 0.0,
-            data,
-        }),
-        _ => Err(format!(
-            "the scale in the header, {scale:?}, is neither a positive nor a negative number"
-        )),
+        Ok(s) if s.is_finite() && s != 0.0 => Ok(Header { width, height, channels, little_endian: s < 0.0, data }),
+        _ => Err(format!("the scale in the header, {scale:?}, is neither a positive nor a negative number")),
     }
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<Image, String> {
-    let Header {
-        width,
-        height,
-        channels,
-        little_endian,
-        data,
-    } = header(bytes)?;
+    let Header { width, height, channels, little_endian, data } = header(bytes)?;
     let data = bytes.get(data..).unwrap_or_default();
     // 2^32 * 2^32 * 12 fits in u128, and what fits in the file fits in memory.
     let needed = u128::from(width) * u128::from(height) * (4 * channels as u128);
     if data.len() as u128 != needed {
-        let kind = if (data.len() as u128) < needed {
-            "cut short"
-        } else {
-            "too long"
-        };
-        return Err(format!(
-            "is {kind}: {} bytes of pixels, {width}x{height} has {needed}",
-            data.len()
-        ));
+        let kind = if (data.len() as u128) < needed { "cut short" } else { "too long" };
+        return Err(format!("is {kind}: {} bytes of pixels, {width}x{height} has {needed}", data.len()));
     }
     let value = |b: &[u8; 4]| {
-        if little_endian {
-            f32::from_le_bytes(*b)
-        } else {
-            f32::from_be_bytes(*b)
-        }
+        if little_endian { f32::from_le_bytes(*b) } else { f32::from_be_bytes(*b) }
     };
     let (values, _) = data.as_chunks::<4>();
     let pixel = |p: &[[u8; 4]]| {
-        if let [r, g, b] = p {
-            [r, g, b].map(value)
-        } else {
-            [value(&p[0]); 3]
-        }
+        if let [r, g, b] = p { [r, g, b].map(value) } else { [value(&p[0]); 3] }
     };
     let rows = values.chunks_exact(width as usize * channels).rev();
-    Ok(Image {
-        width,
-        height,
-        pixels: rows
-            .flat_map(|row| row.chunks_exact(channels).map(pixel))
-            .collect(),
-    })
+    Ok(Image { width, height, pixels: rows.flat_map(|row| row.chunks_exact(channels).map(pixel)).collect() })
 }

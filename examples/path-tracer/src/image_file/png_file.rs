@@ -11,29 +11,23 @@ use super::Image;
 /// infinity 1.
 #[must_use]
 pub fn tone_map(radiance: f32) -> f32 {
-    // Beyond the clamp the curve is 1; and inf / inf would be NaN. `max` also drops NaN.
-    let x = radiance.max(0.0).min(1e4);
+    if radiance.is_nan() {
+        return 0.0;
+    }
+    // Beyond the clamp the curve is 1, and inf / inf would be NaN.
+    let x = radiance.clamp(0.0, 1e4);
     ((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)).min(1.0)
 }
 
 /// Light in 0 to 1 to an sRGB code (IEC 61966-2-1), rounded.
 fn srgb(light: f32) -> u8 {
-    let encoded = if light <= 0.003_130_8 {
-        12.92 * light
-    } else {
-        1.055 * light.powf(1.0 / 2.4) - 0.055
-    };
+    let encoded = if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
     (encoded * 255.0 + 0.5) as u8
 }
 
 pub(super) fn write(image: &Image, exposure: f32, to: impl Write) -> io::Result<()> {
     let gain = exposure.exp2();
-    let bytes: Vec<u8> = image
-        .pixels
-        .iter()
-        .flatten()
-        .map(|&x| srgb(tone_map(x * gain)))
-        .collect();
+    let bytes: Vec<u8> = image.pixels.iter().flatten().map(|&x| srgb(tone_map(x * gain))).collect();
     encode_rgb(image.width, image.height, &bytes, to)
 }
 

@@ -16,33 +16,21 @@ use super::{Fault, Mesh, append, cross, unit};
 /// Column-major, as in the file: `m[column][row]`.
 type Matrix = [[f64; 4]; 4];
 
-const IDENTITY: Matrix = [
-    [1.0, 0.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0, 0.0],
-    [0.0, 0.0, 1.0, 0.0],
-    [0.0, 0.0, 0.0, 1.0],
-];
+const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 /// Extensions that change nothing in how positions, indices and normals are stored.
 const HARMLESS: [&str; 2] = ["KHR_materials_", "KHR_texture_"];
 
 pub(super) fn parse(bytes: &[u8], folder: &Path) -> Result<Mesh, Fault> {
     // gltf subtracts the header's 12 bytes from the length that the header states.
-    if bytes.starts_with(b"glTF")
-        && bytes
-            .get(8..12)
-            .is_none_or(|n| u32::from_le_bytes([n[0], n[1], n[2], n[3]]) < 12)
+    if bytes.starts_with(b"glTF") && bytes.get(8..12).is_none_or(|n| u32::from_le_bytes([n[0], n[1], n[2], n[3]]) < 12)
     {
         return Err(Fault::new("header", "the binary glTF header is cut short"));
     }
-    let Gltf { document, blob } =
-        Gltf::from_slice_without_validation(bytes).map_err(|e| describe(&e))?;
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(|e| describe(&e))?;
     for extension in document.extensions_required() {
         if !HARMLESS.iter().any(|h| extension.starts_with(h)) {
-            return Err(Fault::new(
-                "extensionsRequired",
-                format!("{extension:?} is not supported"),
-            ));
+            return Err(Fault::new("extensionsRequired", format!("{extension:?} is not supported")));
         }
     }
     let document = revalidate(document)?;
@@ -86,14 +74,10 @@ fn revalidate(document: Document) -> Result<Document, Fault> {
 fn describe(error: &gltf::Error) -> Fault {
     match error {
         gltf::Error::Validation(all) => match all.first() {
-            Some((path, error)) => {
-                Fault::new(path.to_string(), format!("the glTF is not valid: {error}"))
-            }
+            Some((path, error)) => Fault::new(path.to_string(), format!("the glTF is not valid: {error}")),
             None => Fault::new("as a whole", "the glTF is not valid"),
         },
-        gltf::Error::Deserialize(e) => {
-            Fault::new(format!("line {} of the JSON", e.line()), e.to_string())
-        }
+        gltf::Error::Deserialize(e) => Fault::new(format!("line {} of the JSON", e.line()), e.to_string()),
         gltf::Error::Binary(e) => Fault::new("binary container", e.to_string()),
         other => Fault::new("as a whole", other.to_string()),
     }
@@ -105,10 +89,7 @@ fn placed_nodes(document: &Document) -> Result<Vec<(Node<'_>, Matrix)>, Fault> {
     for child in document.nodes().flat_map(|n| n.children()) {
         is_child[child.index()] = true;
     }
-    let roots: Vec<Node<'_>> = match document
-        .default_scene()
-        .or_else(|| document.scenes().next())
-    {
+    let roots: Vec<Node<'_>> = match document.default_scene().or_else(|| document.scenes().next()) {
         Some(scene) => scene.nodes().collect(),
         None => document.nodes().filter(|n| !is_child[n.index()]).collect(),
     };
@@ -120,10 +101,7 @@ fn placed_nodes(document: &Document) -> Result<Vec<(Node<'_>, Matrix)>, Fault> {
             let why = "is reached twice; nodes must form a tree";
             return Err(Fault::new(format!("node {}", node.index()), why));
         }
-        let local = node
-            .transform()
-            .matrix()
-            .map(|column| column.map(f64::from));
+        let local = node.transform().matrix().map(|column| column.map(f64::from));
         let world = multiply(&parent, &local);
         open.extend(node.children().map(|child| (child, world)));
         placed.push((node, world));
@@ -144,40 +122,22 @@ fn add_primitive(
 ) -> Result<(), Fault> {
     let place = format!("mesh {mesh_index}, primitive {}", primitive.index());
     let fault = |why: String| Fault::new(&place, why);
-    let positions = primitive
-        .get(&Semantic::Positions)
-        .ok_or_else(|| fault("has no POSITION".into()))?;
-    let positions =
-        accessor::vectors(&positions, buffers).map_err(|e| fault(format!("POSITION: {e}")))?;
+    let positions = primitive.get(&Semantic::Positions).ok_or_else(|| fault("has no POSITION".into()))?;
+    let positions = accessor::vectors(&positions, buffers).map_err(|e| fault(format!("POSITION: {e}")))?;
     let sequence: Vec<u32> = match primitive.indices() {
-        Some(indices) => {
-            accessor::indices(&indices, buffers).map_err(|e| fault(format!("indices: {e}")))?
-        }
+        Some(indices) => accessor::indices(&indices, buffers).map_err(|e| fault(format!("indices: {e}")))?,
         None => {
-            let count = u32::try_from(positions.len())
-                .map_err(|_| fault("has too many vertices".into()))?;
+            let count = u32::try_from(positions.len()).map_err(|_| fault("has too many vertices".into()))?;
             (0..count).collect()
         }
     };
-    if let Some((at, index)) = sequence
-        .iter()
-        .enumerate()
-        .find(|(_, i)| **i as usize >= positions.len())
-    {
-        return Err(fault(format!(
-            "index {at} is {index}, there are {} vertices",
-            positions.len()
-        )));
+    if let Some((at, index)) = sequence.iter().enumerate().find(|(_, i)| **i as usize >= positions.len()) {
+        return Err(fault(format!("index {at} is {index}, there are {} vertices", positions.len())));
     }
     let normals = primitive.get(&Semantic::Normals).map(|normals| {
-        let normals =
-            accessor::vectors(&normals, buffers).map_err(|e| fault(format!("NORMAL: {e}")))?;
+        let normals = accessor::vectors(&normals, buffers).map_err(|e| fault(format!("NORMAL: {e}")))?;
         let (got, want) = (normals.len(), positions.len());
-        if got == want {
-            Ok(normals)
-        } else {
-            Err(fault(format!("{got} normals for {want} vertices")))
-        }
+        if got == want { Ok(normals) } else { Err(fault(format!("{got} normals for {want} vertices"))) }
     });
     let mut indices = triangles(primitive.mode(), &sequence).map_err(fault)?;
     let [x, y, z] = [0, 1, 2].map(|c| [world[c][0], world[c][1], world[c][2]]);
@@ -194,32 +154,16 @@ fn add_primitive(
             ((0..3).map(|k| world[k][row] * f64::from(p[k])).sum::<f64>() + world[3][row]) as f32
         });
         let finite = moved.iter().all(|x| x.is_finite());
-        if finite {
-            Ok(moved)
-        } else {
-            Err(fault(format!(
-                "vertex {i} is not finite after the node's transform"
-            )))
-        }
+        if finite { Ok(moved) } else { Err(fault(format!("vertex {i} is not finite after the node's transform"))) }
     };
     let turn = |n: [f32; 3]| {
-        unit([0, 1, 2].map(|row| {
-            side * (0..3)
-                .map(|k| cofactors[k][row] * f64::from(n[k]))
-                .sum::<f64>()
-        }))
-        .unwrap_or([0.0; 3])
+        unit([0, 1, 2].map(|row| side * (0..3).map(|k| cofactors[k][row] * f64::from(n[k])).sum::<f64>()))
+            .unwrap_or([0.0; 3])
     };
     let part = Mesh {
-        positions: positions
-            .into_iter()
-            .enumerate()
-            .map(place_point)
-            .collect::<Result<_, _>>()?,
+        positions: positions.into_iter().enumerate().map(place_point).collect::<Result<_, _>>()?,
         indices,
-        normals: normals
-            .transpose()?
-            .map(|n| n.into_iter().map(turn).collect()),
+        normals: normals.transpose()?.map(|n| n.into_iter().map(turn).collect()),
         ..Mesh::default()
     };
     append(mesh, part, &place)
@@ -231,28 +175,19 @@ fn triangles(mode: Mode, sequence: &[u32]) -> Result<Vec<[u32; 3]>, String> {
     match mode {
         Mode::Triangles => match sequence.as_chunks::<3>() {
             (triangles, []) => Ok(triangles.to_vec()),
-            _ => Err(format!(
-                "{} indices do not make whole triangles",
-                sequence.len()
-            )),
+            _ => Err(format!("{} indices do not make whole triangles", sequence.len())),
         },
         Mode::TriangleStrip => {
             let every_other_turned = |(i, window): (usize, &[u32])| {
                 let [a, b, c] = corners(window);
                 if i % 2 == 0 { [a, b, c] } else { [b, a, c] }
             };
-            Ok(sequence
-                .windows(3)
-                .enumerate()
-                .map(every_other_turned)
-                .collect())
+            Ok(sequence.windows(3).enumerate().map(every_other_turned).collect())
         }
         Mode::TriangleFan => match sequence {
             [hub, rim @ ..] => Ok(rim.windows(2).map(|w| [*hub, w[0], w[1]]).collect()),
             [] => Ok(Vec::new()),
         },
-        other => Err(format!(
-            "its mode is {other:?}; only Triangles, TriangleStrip and TriangleFan can be drawn"
-        )),
+        other => Err(format!("its mode is {other:?}; only Triangles, TriangleStrip and TriangleFan can be drawn")),
     }
 }

@@ -9,12 +9,8 @@ use std::collections::HashMap;
 
 use super::{Fault, Mesh};
 
-const OPTIONS: tobj::LoadOptions = tobj::LoadOptions {
-    single_index: false,
-    triangulate: true,
-    ignore_points: true,
-    ignore_lines: true,
-};
+const OPTIONS: tobj::LoadOptions =
+    tobj::LoadOptions { single_index: false, triangulate: true, ignore_points: true, ignore_lines: true };
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Mesh, Fault> {
     // Names and comments may be in any encoding; the rest is ASCII.
@@ -22,12 +18,11 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Mesh, Fault> {
     let cleaned = clean(&text)?;
     let whole = |why: &str| Fault::new("as a whole", why);
     let no_materials = |_: &std::path::Path| Ok(Default::default());
-    let (models, _) = tobj::load_obj_buf(&mut cleaned.text.as_bytes(), &OPTIONS, no_materials)
-        .map_err(|e| whole(&e.to_string()))?;
+    let (models, _) =
+        tobj::load_obj_buf(&mut cleaned.text.as_bytes(), &OPTIONS, no_materials).map_err(|e| whole(&e.to_string()))?;
     // Without `o` and `g` lines there is one model.
     let model = models.first().ok_or_else(|| whole("nothing was read"))?;
-    convert(&model.mesh, cleaned.all_have_normals)
-        .ok_or_else(|| whole("its indices are inconsistent"))
+    convert(&model.mesh, cleaned.all_have_normals).ok_or_else(|| whole("its indices are inconsistent"))
 }
 
 /// A backslash at the end of a line continues it. The joined line is followed by empty ones, so that lines keep their
@@ -98,9 +93,7 @@ fn clean(text: &str) -> Result<Cleaned, Fault> {
                     size += 1;
                 }
                 if size < 3 {
-                    return Err(fault(format!(
-                        "a face of {size} vertices, at least 3 are needed"
-                    )));
+                    return Err(fault(format!("a face of {size} vertices, at least 3 are needed")));
                 }
                 corners += size;
             }
@@ -109,10 +102,7 @@ fn clean(text: &str) -> Result<Cleaned, Fault> {
         out.push_str(line);
         out.push('\n');
     }
-    Ok(Cleaned {
-        text: out,
-        all_have_normals: corners > 0 && with_normal == corners,
-    })
+    Ok(Cleaned { text: out, all_have_normals: corners > 0 && with_normal == corners })
 }
 
 /// `x y z`, then nothing, a weight, or a colour. Returns what makes the position.
@@ -123,38 +113,21 @@ fn vertex<'a, 'w>(words: &'w [&'a str]) -> Result<&'w [&'a str], String> {
         4 => {
             let [x, y, z, w] = values(4)?;
             let finite = [x, y, z].iter().all(|c| (c / w).is_finite());
-            if finite {
-                Ok(words)
-            } else {
-                Err(format!("a vertex with the weight {w} is not finite"))
-            }
+            if finite { Ok(words) } else { Err(format!("a vertex with the weight {w} is not finite")) }
         }
         n @ 0..3 => Err(format!("a vertex of {n} numbers, 3 are needed")),
-        n => Err(format!(
-            "a vertex of {n} numbers; 3, 4 (with a weight) or 6 (with a colour) are known"
-        )),
+        n => Err(format!("a vertex of {n} numbers; 3, 4 (with a weight) or 6 (with a colour) are known")),
     }
 }
 
 /// The first `n` (at most 4) words as finite numbers, the rest of the result being zero.
-fn numbers<'a>(
-    mut words: impl Iterator<Item = &'a str>,
-    n: usize,
-    what: &str,
-) -> Result<[f32; 4], String> {
+fn numbers<'a>(mut words: impl Iterator<Item = &'a str>, n: usize, what: &str) -> Result<[f32; 4], String> {
     let mut values = [0.0_f32; 4];
     for value in values.iter_mut().take(n) {
-        let word = words
-            .next()
-            .ok_or_else(|| format!("a {what} of fewer than {n} numbers"))?;
-        *value = word
-            .parse()
-            .map_err(|_| format!("'{}' is not a number", shown(word)))?;
+        let word = words.next().ok_or_else(|| format!("a {what} of fewer than {n} numbers"))?;
+        *value = word.parse().map_err(|_| format!("'{}' is not a number", shown(word)))?;
         if !value.is_finite() {
-            return Err(format!(
-                "a {what} with the coordinate {} is not finite",
-                shown(word)
-            ));
+            return Err(format!("a {what} with the coordinate {} is not finite", shown(word)));
         }
     }
     Ok(values)
@@ -170,14 +143,10 @@ fn corner(word: &str, counts: [usize; 3]) -> Result<bool, String> {
         if part.is_empty() && slot > 0 {
             continue;
         }
-        let index: i64 = part
-            .parse()
-            .map_err(|_| format!("'{}' is not an index", shown(word)))?;
+        let index: i64 = part.parse().map_err(|_| format!("'{}' is not an index", shown(word)))?;
         let count = counts[slot];
         if index == 0 || index.unsigned_abs() > count as u64 {
-            return Err(format!(
-                "{name} {index} is asked for, {count} are defined above"
-            ));
+            return Err(format!("{name} {index} is asked for, {count} are defined above"));
         }
         given[slot] = true;
     }
@@ -186,10 +155,7 @@ fn corner(word: &str, counts: [usize; 3]) -> Result<bool, String> {
 
 /// A word fit for an error message of one line.
 fn shown(word: &str) -> String {
-    word.chars()
-        .take(40)
-        .flat_map(char::escape_default)
-        .collect()
+    word.chars().take(40).flat_map(char::escape_default).collect()
 }
 
 /// Makes one index a corner of the separate indices for positions and normals. `None` if they do not belong together.
@@ -205,11 +171,7 @@ fn convert(from: &tobj::Mesh, with_normals: bool) -> Option<Mesh> {
     }
     if !with_normals {
         let (positions, indices) = (positions.to_vec(), triangles.to_vec());
-        return Some(Mesh {
-            positions,
-            indices,
-            ..Mesh::default()
-        });
+        return Some(Mesh { positions, indices, ..Mesh::default() });
     }
     let (normals, []) = from.normals.as_chunks::<3>() else {
         return None;

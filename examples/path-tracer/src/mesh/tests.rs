@@ -23,21 +23,14 @@ fn load_bytes(name: &str, bytes: &[u8]) -> Result<Mesh, MeshError> {
 
 /// The message without the folder, and proof that it is one line.
 fn message(name: &str, bytes: &[u8]) -> String {
-    let message = load_bytes(name, bytes)
-        .expect_err("must be refused")
-        .to_string();
+    let message = load_bytes(name, bytes).expect_err("must be refused").to_string();
     assert!(!message.contains('\n'), "{message:?}");
     message[message.find(name).unwrap()..].to_owned()
 }
 
 fn assert_sound(mesh: &Mesh) {
     assert!(mesh.positions.iter().flatten().all(|x| x.is_finite()));
-    assert!(
-        mesh.indices
-            .iter()
-            .flatten()
-            .all(|&i| (i as usize) < mesh.positions.len())
-    );
+    assert!(mesh.indices.iter().flatten().all(|&i| (i as usize) < mesh.positions.len()));
     if let Some(normals) = &mesh.normals {
         assert_eq!(normals.len(), mesh.positions.len());
         for n in normals {
@@ -51,15 +44,7 @@ fn assert_sound(mesh: &Mesh) {
 fn obj_square() {
     let mesh = load_bytes("square.obj", SQUARE_OBJ.as_bytes()).unwrap();
     assert_eq!(mesh.name, "square");
-    assert_eq!(
-        mesh.positions,
-        [
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [1.0, 1.0, 0.0],
-            [0.0, 1.0, 0.0]
-        ]
-    );
+    assert_eq!(mesh.positions, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
     assert_eq!(mesh.indices, [[0, 1, 2], [0, 2, 3]]);
     assert_eq!(mesh.normals, Some(vec![[0.0, 0.0, 1.0]; 4]));
 }
@@ -76,11 +61,7 @@ fn obj_variants_give_the_same_square() {
     ];
     for text in variants {
         let mesh = load_bytes("a.obj", text.as_bytes()).unwrap();
-        assert_eq!(
-            (&mesh.positions, &mesh.indices),
-            (&expected.positions, &expected.indices),
-            "{text}"
-        );
+        assert_eq!((&mesh.positions, &mesh.indices), (&expected.positions, &expected.indices), "{text}");
         assert_eq!(mesh.normals, None, "not every corner has one: {text}");
     }
 }
@@ -95,8 +76,7 @@ fn obj_objects_are_merged_and_share_vertices() {
 
 #[test]
 fn obj_corners_are_split_by_normal() {
-    let text =
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 3\nvn 0 0 0\nf 1//1 2//1 3//1\nf 1//2 3//2 2//2\n";
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 3\nvn 0 0 0\nf 1//1 2//1 3//1\nf 1//2 3//2 2//2\n";
     let mesh = load_bytes("fold.obj", text.as_bytes()).unwrap();
     assert_eq!(mesh.positions.len(), 6);
     // The normal of no length became that of its triangle.
@@ -107,91 +87,37 @@ fn obj_corners_are_split_by_normal() {
 fn obj_faults_name_their_line() {
     let three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     let cases = [
-        (
-            "f 1 2 4\n",
-            "line 4: vertex 4 is asked for, 3 are defined above",
-        ),
-        (
-            "f 1 2 0\n",
-            "line 4: vertex 0 is asked for, 3 are defined above",
-        ),
-        (
-            "f -4 1 2\n",
-            "line 4: vertex -4 is asked for, 3 are defined above",
-        ),
-        (
-            "f 1//1 2 3\n",
-            "line 4: normal 1 is asked for, 0 are defined above",
-        ),
+        ("f 1 2 4\n", "line 4: vertex 4 is asked for, 3 are defined above"),
+        ("f 1 2 0\n", "line 4: vertex 0 is asked for, 3 are defined above"),
+        ("f -4 1 2\n", "line 4: vertex -4 is asked for, 3 are defined above"),
+        ("f 1//1 2 3\n", "line 4: normal 1 is asked for, 0 are defined above"),
         (
             "f 1/9223372036854775807 2 3\n",
             "line 4: texture coordinate 9223372036854775807 is asked for, 0 are defined above",
         ),
-        (
-            "f 1 2 -9223372036854775808\n",
-            "line 4: vertex -9223372036854775808 is asked for, 3 are defined above",
-        ),
-        (
-            "f 1 2 9223372036854775808\n",
-            "line 4: '9223372036854775808' is not an index",
-        ),
+        ("f 1 2 -9223372036854775808\n", "line 4: vertex -9223372036854775808 is asked for, 3 are defined above"),
+        ("f 1 2 9223372036854775808\n", "line 4: '9223372036854775808' is not an index"),
         ("\n\nf 1 2 x\n", "line 6: 'x' is not an index"),
-        (
-            "f 1 2 3/1/1/1\n",
-            "line 4: texture coordinate 1 is asked for, 0 are defined above",
-        ),
-        (
-            "vt 0\nvn 0 0 1\nf 1 2 3/1/1/1\n",
-            "line 6: '3/1/1/1' has more than three indices",
-        ),
-        (
-            "f 1 2\n",
-            "line 4: a face of 2 vertices, at least 3 are needed",
-        ),
+        ("f 1 2 3/1/1/1\n", "line 4: texture coordinate 1 is asked for, 0 are defined above"),
+        ("vt 0\nvn 0 0 1\nf 1 2 3/1/1/1\n", "line 6: '3/1/1/1' has more than three indices"),
+        ("f 1 2\n", "line 4: a face of 2 vertices, at least 3 are needed"),
         ("f\n", "line 4: a face of 0 vertices, at least 3 are needed"),
         ("v 0 0\n", "line 4: a vertex of 2 numbers, 3 are needed"),
-        (
-            "v 0 0 0 1 1\n",
-            "line 4: a vertex of 5 numbers; 3, 4 (with a weight) or 6 (with a colour) are known",
-        ),
-        (
-            "v 0 nan 0\n",
-            "line 4: a vertex with the coordinate nan is not finite",
-        ),
-        (
-            "v 0 1e39 0\n",
-            "line 4: a vertex with the coordinate 1e39 is not finite",
-        ),
-        (
-            "v 0 0 0 0\n",
-            "line 4: a vertex with the weight 0 is not finite",
-        ),
+        ("v 0 0 0 1 1\n", "line 4: a vertex of 5 numbers; 3, 4 (with a weight) or 6 (with a colour) are known"),
+        ("v 0 nan 0\n", "line 4: a vertex with the coordinate nan is not finite"),
+        ("v 0 1e39 0\n", "line 4: a vertex with the coordinate 1e39 is not finite"),
+        ("v 0 0 0 0\n", "line 4: a vertex with the weight 0 is not finite"),
         ("v 0 1,5 0\n", "line 4: '1,5' is not a number"),
-        (
-            "vn 0 -inf 0\n",
-            "line 4: a normal with the coordinate -inf is not finite",
-        ),
+        ("vn 0 -inf 0\n", "line 4: a normal with the coordinate -inf is not finite"),
         ("vn 0 0\n", "line 4: a normal of fewer than 3 numbers"),
-        (
-            "v 1 \\\n 2\nv 1 2 3\n",
-            "line 4: a vertex of 2 numbers, 3 are needed",
-        ),
+        ("v 1 \\\n 2\nv 1 2 3\n", "line 4: a vertex of 2 numbers, 3 are needed"),
     ];
     for (text, expected) in cases {
-        assert_eq!(
-            message("bad.obj", format!("{three}{text}").as_bytes()),
-            format!("bad.obj, {expected}")
-        );
+        assert_eq!(message("bad.obj", format!("{three}{text}").as_bytes()), format!("bad.obj, {expected}"));
     }
-    assert_eq!(
-        message("bad.obj", three.as_bytes()),
-        "bad.obj: holds no triangles"
-    );
+    assert_eq!(message("bad.obj", three.as_bytes()), "bad.obj: holds no triangles");
     assert_eq!(message("bad.obj", b""), "bad.obj: holds no triangles");
-    assert_eq!(
-        message("bad.obj", b"\xff\xfe\x00\x00"),
-        "bad.obj: holds no triangles"
-    );
+    assert_eq!(message("bad.obj", b"\xff\xfe\x00\x00"), "bad.obj: holds no triangles");
 }
 
 #[test]
@@ -199,30 +125,18 @@ fn files_that_cannot_be_read() {
     let folder = tempfile::tempdir().unwrap();
     let text = |path: &Path| load(path).unwrap_err().to_string();
     let missing = folder.path().join("missing.obj");
-    assert!(
-        text(&missing).contains("missing.obj: cannot be read: No such file"),
-        "{}",
-        text(&missing)
-    );
+    assert!(text(&missing).contains("missing.obj: cannot be read: No such file"), "{}", text(&missing));
     fs::create_dir(folder.path().join("folder.glb")).unwrap();
-    assert!(
-        text(&folder.path().join("folder.glb"))
-            .ends_with("folder.glb: cannot be read: it is not a regular file")
-    );
+    assert!(text(&folder.path().join("folder.glb")).ends_with("folder.glb: cannot be read: it is not a regular file"));
     for name in ["bunny.ply", "bunny", ".obj", ""] {
-        assert!(
-            text(Path::new(name)).ends_with(": a mesh file ends in .obj, .gltf or .glb"),
-            "{name}"
-        );
+        assert!(text(Path::new(name)).ends_with(": a mesh file ends in .obj, .gltf or .glb"), "{name}");
     }
     assert_eq!(MeshFormat::of(Path::new("A.OBJ")).unwrap(), MeshFormat::Obj);
 }
 
 /// Positions of a square, then its 6 indices as u16, then normals.
 fn square_buffer() -> Vec<u8> {
-    let positions = [
-        0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0,
-    ];
+    let positions = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0];
     let normals = [0.0_f32, 0.0, 2.0];
     let mut bytes: Vec<u8> = positions.iter().flat_map(|x| x.to_le_bytes()).collect();
     bytes.extend([0_u16, 1, 2, 0, 2, 3].iter().flat_map(|i| i.to_le_bytes()));
@@ -246,10 +160,7 @@ fn square_gltf(buffer: &str, node: &str, primitive: &str) -> String {
 }
 
 fn embedded(node: &str, primitive: &str) -> String {
-    let uri = format!(
-        r#","uri":"data:application/octet-stream;base64,{}""#,
-        STANDARD.encode(square_buffer())
-    );
+    let uri = format!(r#","uri":"data:application/octet-stream;base64,{}""#, STANDARD.encode(square_buffer()));
     square_gltf(&uri, node, primitive)
 }
 
@@ -271,15 +182,7 @@ fn glb(json: &str, binary: &[u8]) -> Vec<u8> {
 }
 
 fn assert_is_square(mesh: &Mesh) {
-    assert_eq!(
-        mesh.positions,
-        [
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [1.0, 1.0, 0.0],
-            [0.0, 1.0, 0.0]
-        ]
-    );
+    assert_eq!(mesh.positions, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
     assert_eq!(mesh.indices, [[0, 1, 2], [0, 2, 3]]);
     assert_eq!(mesh.normals, Some(vec![[0.0, 0.0, 1.0]; 4]));
 }
@@ -287,9 +190,7 @@ fn assert_is_square(mesh: &Mesh) {
 #[test]
 fn gltf_from_every_container() {
     assert_is_square(&load_bytes("a.gltf", embedded("", "").as_bytes()).unwrap());
-    assert_is_square(
-        &load_bytes("a.glb", &glb(&square_gltf("", "", ""), &square_buffer())).unwrap(),
-    );
+    assert_is_square(&load_bytes("a.glb", &glb(&square_gltf("", "", ""), &square_buffer())).unwrap());
 
     let folder = tempfile::tempdir().unwrap();
     let uri = |uri: &str| square_gltf(&format!(r#","uri":"{uri}""#), "", "");
@@ -304,32 +205,16 @@ fn gltf_from_every_container() {
         ("%zz", "is not valid"),
         ("a.gltf", "buffer 0: has "),
     ] {
-        let path = write(
-            &folder,
-            "a.gltf",
-            if name == "a.gltf" {
-                uri("b.bin")
-            } else {
-                uri(name)
-            }
-            .as_bytes(),
-        );
+        let path = write(&folder, "a.gltf", if name == "a.gltf" { uri("b.bin") } else { uri(name) }.as_bytes());
         write(&folder, "b.bin", b"short");
         let text = load(&path).unwrap_err().to_string();
-        assert!(
-            text.contains("a.gltf, buffer 0: ") && text.contains(expected),
-            "{text}"
-        );
+        assert!(text.contains("a.gltf, buffer 0: ") && text.contains(expected), "{text}");
     }
 }
 
 #[test]
 fn gltf_nodes_are_applied() {
-    let moved = load_bytes(
-        "a.gltf",
-        embedded(r#","translation":[1,2,3],"scale":[2,2,2]"#, "").as_bytes(),
-    )
-    .unwrap();
+    let moved = load_bytes("a.gltf", embedded(r#","translation":[1,2,3],"scale":[2,2,2]"#, "").as_bytes()).unwrap();
     assert_eq!(moved.positions[2], [3.0, 4.0, 3.0]);
     // A mirror: winding turns, normals stay on the outside of it.
     let mirrored = load_bytes("a.gltf", embedded(r#","scale":[-1,1,1]"#, "").as_bytes()).unwrap();
@@ -337,23 +222,13 @@ fn gltf_nodes_are_applied() {
     assert_eq!(mirrored.indices[0], [0, 2, 1]);
     assert_eq!(mirrored.normals.unwrap()[0], [0.0, 0.0, 1.0]);
     // A shear, x += z, takes the plane's normal along; column-major.
-    let sheared = load_bytes(
-        "a.gltf",
-        embedded(r#","matrix":[1,0,1,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]"#, "").as_bytes(),
-    )
-    .unwrap();
+    let sheared =
+        load_bytes("a.gltf", embedded(r#","matrix":[1,0,1,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]"#, "").as_bytes()).unwrap();
     assert_eq!(sheared.positions[1], [1.0, 0.0, 1.0]);
     let n = sheared.normals.as_ref().unwrap()[0];
-    assert!(
-        (n[0] + 0.5_f32.sqrt()).abs() < 1e-6 && (n[2] - 0.5_f32.sqrt()).abs() < 1e-6,
-        "{n:?}"
-    );
+    assert!((n[0] + 0.5_f32.sqrt()).abs() < 1e-6 && (n[2] - 0.5_f32.sqrt()).abs() < 1e-6, "{n:?}");
     // Extremes keep their direction.
-    let flat = load_bytes(
-        "a.gltf",
-        embedded(r#","scale":[1e-30,1e-30,1e30]"#, "").as_bytes(),
-    )
-    .unwrap();
+    let flat = load_bytes("a.gltf", embedded(r#","scale":[1e-30,1e-30,1e30]"#, "").as_bytes()).unwrap();
     assert_sound(&flat);
     // A node that flattens everything still leaves unit normals.
     assert_sound(&load_bytes("a.gltf", embedded(r#","scale":[0,0,0]"#, "").as_bytes()).unwrap());
@@ -361,38 +236,14 @@ fn gltf_nodes_are_applied() {
 
 #[test]
 fn gltf_modes() {
-    let mode = |m: u32| {
-        load_bytes(
-            "a.gltf",
-            embedded("", &format!(r#","mode":{m}"#)).as_bytes(),
-        )
-    };
-    assert_eq!(
-        mode(5).unwrap().indices,
-        [[0, 1, 2], [2, 1, 0], [2, 0, 2], [2, 0, 3]]
-    );
-    assert_eq!(
-        mode(6).unwrap().indices,
-        [[0, 1, 2], [0, 2, 0], [0, 0, 2], [0, 2, 3]]
-    );
-    for (m, name) in [
-        (0, "Points"),
-        (1, "Lines"),
-        (2, "LineLoop"),
-        (3, "LineStrip"),
-    ] {
+    let mode = |m: u32| load_bytes("a.gltf", embedded("", &format!(r#","mode":{m}"#)).as_bytes());
+    assert_eq!(mode(5).unwrap().indices, [[0, 1, 2], [2, 1, 0], [2, 0, 2], [2, 0, 3]]);
+    assert_eq!(mode(6).unwrap().indices, [[0, 1, 2], [0, 2, 0], [0, 0, 2], [0, 2, 3]]);
+    for (m, name) in [(0, "Points"), (1, "Lines"), (2, "LineLoop"), (3, "LineStrip")] {
         let expected = format!(
             "a.gltf, mesh 0, primitive 0: its mode is {name}; only Triangles, TriangleStrip and TriangleFan can be drawn"
         );
-        assert_eq!(
-            mode(m)
-                .unwrap_err()
-                .to_string()
-                .split_once("a.gltf")
-                .unwrap()
-                .1,
-            &expected[6..]
-        );
+        assert_eq!(mode(m).unwrap_err().to_string().split_once("a.gltf").unwrap().1, &expected[6..]);
     }
 }
 
@@ -400,11 +251,7 @@ fn gltf_modes() {
 fn gltf_sparse_accessors() {
     // Positions without a view, of which the sparse values set element 1 and 3.
     let mut buffer: Vec<u8> = [1_u8, 3, 0, 0].to_vec();
-    buffer.extend(
-        [1.0_f32, 0.0, 0.0, 0.0, 1.0, 0.0]
-            .iter()
-            .flat_map(|x| x.to_le_bytes()),
-    );
+    buffer.extend([1.0_f32, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()));
     let json = |place: &str| {
         format!(
             r#"{{"asset":{{"version":"2.0"}},"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"mode":6}}]}}],
@@ -415,16 +262,10 @@ fn gltf_sparse_accessors() {
         )
     };
     let mesh = load_bytes("s.glb", &glb(&json("0"), &buffer)).unwrap();
-    assert_eq!(
-        mesh.positions,
-        [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3], [0.0, 1.0, 0.0]]
-    );
+    assert_eq!(mesh.positions, [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3], [0.0, 1.0, 0.0]]);
     assert_eq!(mesh.indices, [[0, 1, 2], [0, 2, 3]]);
     let past = message("s.glb", &glb(&json("3"), &buffer));
-    assert_eq!(
-        past,
-        "s.glb, mesh 0, primitive 0: POSITION: sparse accessor 0 reaches past the end of its buffer"
-    );
+    assert_eq!(past, "s.glb, mesh 0, primitive 0: POSITION: sparse accessor 0 reaches past the end of its buffer");
     buffer[1] = 4;
     let outside = message("s.glb", &glb(&json("0"), &buffer));
     assert_eq!(
@@ -442,11 +283,7 @@ fn gltf_faults_name_their_place() {
             r#""count":400"#,
             "mesh 0, primitive 0: POSITION: accessor 0 reaches past the end of its buffer",
         ),
-        (
-            r#""count":6"#,
-            r#""count":5"#,
-            "mesh 0, primitive 0: 5 indices do not make whole triangles",
-        ),
+        (r#""count":6"#, r#""count":5"#, "mesh 0, primitive 0: 5 indices do not make whole triangles"),
         (
             r#""componentType":5123"#,
             r#""componentType":5126"#,
@@ -457,51 +294,23 @@ fn gltf_faults_name_their_place() {
             r#""byteOffset":4800"#,
             "mesh 0, primitive 0: indices: accessor 1 reaches past the end of its buffer",
         ),
-        (
-            r#""byteOffset":48"#,
-            r#""byteOffset":4"#,
-            "mesh 0, primitive 0: index 5 is 16256, there are 4 vertices",
-        ),
-        (
-            r#""children":[1]"#,
-            r#""children":[1,1]"#,
-            "node 1: is reached twice; nodes must form a tree",
-        ),
-        (
-            r#""children":[1]"#,
-            r#""children":[0]"#,
-            "node 0: is reached twice; nodes must form a tree",
-        ),
-        (
-            r#""children":[1]"#,
-            r#""children":[7]"#,
-            "nodes[0].children[0]: the glTF is not valid: Index out of bounds",
-        ),
+        (r#""byteOffset":48"#, r#""byteOffset":4"#, "mesh 0, primitive 0: index 5 is 16256, there are 4 vertices"),
+        (r#""children":[1]"#, r#""children":[1,1]"#, "node 1: is reached twice; nodes must form a tree"),
+        (r#""children":[1]"#, r#""children":[0]"#, "node 0: is reached twice; nodes must form a tree"),
+        (r#""children":[1]"#, r#""children":[7]"#, "nodes[0].children[0]: the glTF is not valid: Index out of bounds"),
         (
             r#""asset":"#,
             r#""extensionsRequired":["KHR_draco_mesh_compression"],"asset":"#,
             "extensionsRequired: \"KHR_draco_mesh_compression\" is not supported",
         ),
-        (
-            r#"base64,"#,
-            r#"base64,!"#,
-            "buffer 0: its data URI is not valid base64: Invalid symbol 33, offset 0.",
-        ),
-        (
-            r#";base64,"#,
-            r#","#,
-            "buffer 0: its data URI is not in base64",
-        ),
+        (r#"base64,"#, r#"base64,!"#, "buffer 0: its data URI is not valid base64: Invalid symbol 33, offset 0."),
+        (r#";base64,"#, r#","#, "buffer 0: its data URI is not in base64"),
         (
             r#""NORMAL":2"#,
             r#""NORMAL":1"#,
             "mesh 0, primitive 0: NORMAL: accessor 1 holds U16 Scalar, F32 Vec3 is needed",
         ),
-        (
-            r#""POSITION":0"#,
-            r#""POSITION":7"#,
-            "mesh 0, primitive 0: accessor 7 is asked for, there are 3",
-        ),
+        (r#""POSITION":0"#, r#""POSITION":7"#, "mesh 0, primitive 0: accessor 7 is asked for, there are 3"),
         (r#""mesh":0"#, r#""mesh":0,"scale":[1e39,1,1]"#, ""),
         (
             r#""mesh":0"#,
@@ -528,14 +337,8 @@ fn gltf_faults_name_their_place() {
     let mut nan = square_buffer();
     nan[16..20].copy_from_slice(&f32::NAN.to_le_bytes());
     let text = message("a.glb", &glb(&square_gltf("", "", ""), &nan));
-    assert_eq!(
-        text,
-        "a.glb, mesh 0, primitive 0: POSITION: element 1 of accessor 0 is not finite: [1.0, NaN, 0.0]"
-    );
-    assert_eq!(
-        message("a.gltf", br#"{"asset":{"version":"2.0"}}"#),
-        "a.gltf: holds no triangles"
-    );
+    assert_eq!(text, "a.glb, mesh 0, primitive 0: POSITION: element 1 of accessor 0 is not finite: [1.0, NaN, 0.0]");
+    assert_eq!(message("a.gltf", br#"{"asset":{"version":"2.0"}}"#), "a.gltf: holds no triangles");
 }
 
 /// SplitMix64.
@@ -595,13 +398,9 @@ fn mutated(valid: &[u8], rng: &mut Rng) -> Vec<u8> {
     }
     // A number in its place, to get past the grammar.
     if rng.below(2) == 0 {
-        let digits: Vec<usize> = (0..bytes.len())
-            .filter(|&i| bytes[i].is_ascii_digit())
-            .collect();
+        let digits: Vec<usize> = (0..bytes.len()).filter(|&i| bytes[i].is_ascii_digit()).collect();
         if let Some(&at) = digits.get(rng.below(digits.len())) {
-            let until = (at..bytes.len())
-                .find(|&i| !bytes[i].is_ascii_digit())
-                .unwrap_or(bytes.len());
+            let until = (at..bytes.len()).find(|&i| !bytes[i].is_ascii_digit()).unwrap_or(bytes.len());
             drop(bytes.splice(at..until, NASTY[rng.below(6)].bytes()));
         }
     }
@@ -612,10 +411,7 @@ fn mutated(valid: &[u8], rng: &mut Rng) -> Vec<u8> {
 fn mutated_files_never_panic() {
     let mut rng = Rng(2026);
     let folder = Path::new("/nonexistent");
-    let (gltf_file, glb_file) = (
-        embedded("", ""),
-        glb(&square_gltf("", "", ""), &square_buffer()),
-    );
+    let (gltf_file, glb_file) = (embedded("", ""), glb(&square_gltf("", "", ""), &square_buffer()));
     let (mut good, mut bad) = (0, 0);
     for _ in 0..4000 {
         let results = [
@@ -631,10 +427,7 @@ fn mutated_files_never_panic() {
                     good += 1;
                 }
                 Err(fault) => {
-                    assert!(
-                        !fault.place.contains('\n') && !fault.why.contains('\n'),
-                        "{fault:?}"
-                    );
+                    assert!(!fault.place.contains('\n') && !fault.why.contains('\n'), "{fault:?}");
                     bad += 1;
                 }
             }
@@ -659,48 +452,26 @@ fn meshes_of_any_size_fit() {
     ];
     let (center, size) = ([1.0, 2.0, 3.0], [0.5, 1.0, 2.0]);
     for shape in shapes {
-        for place in [fit_into, fit_onto] {
-            let mut mesh = Mesh {
-                positions: corners(shape),
-                indices: vec![[0, 1, 2]],
-                ..Mesh::default()
-            };
-            let scale = place(&mut mesh, center, size);
-            assert!(scale.is_finite() && scale > 0.0, "{shape:?}");
-            assert_sound(&mesh);
-            let extents: Vec<f32> = (0..3)
-                .map(|axis| {
-                    let (low, high) = (
-                        center[axis] - size[axis] / 2.0,
-                        center[axis] + size[axis] / 2.0,
-                    );
-                    let all = || mesh.positions.iter().map(|p| p[axis]);
-                    assert!(
-                        all().all(|x| x >= low && x <= high),
-                        "{shape:?}: {:?}",
-                        mesh.positions
-                    );
-                    (all().fold(f32::MIN, f32::max) - all().fold(f32::MAX, f32::min)) / size[axis]
-                })
-                .collect();
-            // It fills the box along one axis, unless it is a point.
-            let fill = extents.iter().copied().fold(0.0, f32::max);
-            assert!(
-                if shape == [0.0; 3] {
-                    fill == 0.0
-                } else {
-                    (fill - 1.0).abs() < 1e-5
-                },
-                "{shape:?}: {extents:?}"
-            );
-        }
+        let mut mesh = Mesh { positions: corners(shape), indices: vec![[0, 1, 2]], ..Mesh::default() };
+        let scale = fit_into(&mut mesh, center, size);
+        assert!(scale.is_finite() && scale > 0.0, "{shape:?}");
+        assert_sound(&mesh);
+        let extents: Vec<f32> = (0..3)
+            .map(|axis| {
+                let (low, high) = (center[axis] - size[axis] / 2.0, center[axis] + size[axis] / 2.0);
+                let all = || mesh.positions.iter().map(|p| p[axis]);
+                assert!(all().all(|x| x >= low && x <= high), "{shape:?}: {:?}", mesh.positions);
+                (all().fold(f32::MIN, f32::max) - all().fold(f32::MAX, f32::min)) / size[axis]
+            })
+            .collect();
+        // It fills the box along one axis, unless it is a point, and stands on the floor.
+        let fill = extents.iter().copied().fold(0.0, f32::max);
+        assert!(if shape == [0.0; 3] { fill == 0.0 } else { (fill - 1.0).abs() < 1e-5 }, "{shape:?}: {extents:?}");
+        assert_eq!(mesh.positions[0][1], center[1] - size[1] / 2.0);
     }
-    let mut mesh = Mesh {
-        positions: corners([1.0, 0.25, 1.0]),
-        ..Mesh::default()
-    };
-    fit_onto(&mut mesh, [0.0; 3], [2.0; 3]);
-    assert_eq!(mesh.positions[0], [-1.0, -1.0, -1.0]);
+    let mut mesh = Mesh { positions: corners([1.0, 0.25, 1.0]), ..Mesh::default() };
+    fit_into(&mut mesh, [0.0; 3], [2.0; 3]);
+    assert_eq!(mesh.positions[..2], [[-1.0, -1.0, -1.0], [1.0, -0.5, 1.0]]);
     let mut empty = Mesh::default();
     assert_eq!(fit_into(&mut empty, center, size), 1.0);
 }
@@ -712,10 +483,7 @@ fn real_meshes_load_where_present() {
         eprintln!("real meshes: not loaded, no {}", folder.display());
         return;
     };
-    for path in entries
-        .map(|e| e.unwrap().path())
-        .filter(|p| p.extension().is_some_and(|e| e == "obj"))
-    {
+    for path in entries.map(|e| e.unwrap().path()).filter(|p| p.extension().is_some_and(|e| e == "obj")) {
         let mut mesh = load(&path).unwrap();
         assert!(mesh.indices.len() > 100, "{}", path.display());
         assert_sound(&mesh);

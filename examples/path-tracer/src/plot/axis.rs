@@ -33,30 +33,15 @@ const MOST_TICKS: i32 = 9;
 
 impl Axis {
     /// An axis that shows all positive, finite values, with a margin; `None` where there are none.
-    pub(super) fn over(
-        label: &str,
-        base: Base,
-        values: impl IntoIterator<Item = f64>,
-    ) -> Option<Self> {
-        let logs = values
-            .into_iter()
-            .filter(|v| *v > 0.0 && v.is_finite())
-            .map(f64::log10);
-        let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
-            (a.min(x), b.max(x))
-        });
+    pub(super) fn over(label: &str, base: Base, values: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let logs = values.into_iter().filter(|v| *v > 0.0 && v.is_finite()).map(f64::log10);
+        let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         if low > high {
             return None;
         }
         // Wide enough that a tick falls inside, even for a single value.
-        let margin = (0.04 * (high - low))
-            .max(0.5 * (base.value().log10() - (high - low)))
-            .max(0.05);
-        Some(Self {
-            label: label.to_owned(),
-            base,
-            range: low - margin..high + margin,
-        })
+        let margin = (0.04 * (high - low)).max(0.5 * (base.value().log10() - (high - low))).max(0.05);
+        Some(Self { label: label.to_owned(), base, range: low - margin..high + margin })
     }
 
     pub(super) fn label(&self) -> &str {
@@ -74,16 +59,10 @@ impl Axis {
     /// Labelled and faint ticks, in decimal logarithms; some lie outside the axis.
     fn ticks(&self) -> (Vec<f64>, Vec<f64>) {
         let unit = self.base.value().log10();
-        let (first, last) = (
-            (self.low() / unit).floor() as i32,
-            (self.high() / unit).ceil() as i32,
-        );
+        let (first, last) = ((self.low() / unit).floor() as i32, (self.high() / unit).ceil() as i32);
         let every = (last - first) / MOST_TICKS + 1;
         let power = |k: i32| f64::from(k) * unit;
-        let mut bold: Vec<f64> = (first..=last)
-            .filter(|k| k % every == 0)
-            .map(power)
-            .collect();
+        let mut bold: Vec<f64> = (first..=last).filter(|k| k % every == 0).map(power).collect();
         let between = |factors: &'static [f64]| {
             (first..=last).flat_map(move |k| factors.iter().map(move |f| power(k) + f.log10()))
         };
@@ -129,11 +108,7 @@ impl Ranged for Axis {
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
         let (bold, light) = self.ticks();
-        let mut ticks = if hint.weight().allow_light_points() {
-            light
-        } else {
-            bold
-        };
+        let mut ticks = if hint.weight().allow_light_points() { light } else { bold };
         ticks.retain(|v| self.range.contains(v));
         ticks
     }
@@ -169,29 +144,17 @@ mod tests {
 
     #[test]
     fn ticks_are_powers() {
-        assert_eq!(
-            labels(Base::Two, [2.0, 64.0]),
-            ["2¹", "2²", "2³", "2⁴", "2⁵", "2⁶"]
-        );
-        assert_eq!(
-            labels(Base::Ten, [1e-3, 2.0]),
-            ["10⁻³", "10⁻²", "10⁻¹", "10⁰"]
-        );
+        assert_eq!(labels(Base::Two, [2.0, 64.0]), ["2¹", "2²", "2³", "2⁴", "2⁵", "2⁶"]);
+        assert_eq!(labels(Base::Ten, [1e-3, 2.0]), ["10⁻³", "10⁻²", "10⁻¹", "10⁰"]);
         assert_eq!(labels(Base::Ten, [0.04, 0.3]), ["5·10⁻²", "10⁻¹", "2·10⁻¹"]);
     }
 
     #[test]
     fn every_axis_has_a_few_ticks() {
         for base in [Base::Two, Base::Ten] {
-            for values in [
-                [1.0, 1.0],
-                [0.3, 0.31],
-                [7.0, 8.0],
-                [1e-300, 1e300],
-                [1.0, 1e6],
-                [1.0, 1e38],
-                [5e-324, 1e-323],
-            ] {
+            for values in
+                [[1.0, 1.0], [0.3, 0.31], [7.0, 8.0], [1e-300, 1e300], [1.0, 1e6], [1.0, 1e38], [5e-324, 1e-323]]
+            {
                 let ticks = labels(base, values).len();
                 assert!((1..=12).contains(&ticks), "{base:?} {values:?}: {ticks}");
             }

@@ -19,10 +19,7 @@ fn curve(rows: u32, with_reference: bool, second: f64) -> ErrorCurve {
             true_rmse: with_reference.then_some((error * error * 1.05 + 1e-4).sqrt()),
             bias: with_reference.then_some(1e-3),
             bias_error: with_reference.then_some(1e-3),
-            rejected: Rejected {
-                pixel_passes: u64::from(with_reference),
-                samples: u64::from(with_reference) * 3,
-            },
+            rejected: Rejected { pixel_passes: u64::from(with_reference), samples: u64::from(with_reference) * 3 },
         };
         curve.push(row).unwrap();
     }
@@ -56,9 +53,6 @@ fn every_curve_can_be_drawn() {
 
 #[test]
 fn text_is_drawn_without_system_fonts() {
-    let (with, without) = (
-        draw(&ErrorCurve::new(), "title").unwrap(),
-        draw(&ErrorCurve::new(), "").unwrap(),
-    );
+    let (with, without) = (draw(&ErrorCurve::new(), "title").unwrap(), draw(&ErrorCurve::new(), "").unwrap());
     assert_ne!(with, without);
 }

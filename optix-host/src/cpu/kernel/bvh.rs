@@ -12,13 +12,20 @@ pub const WIDTH: usize = 8;
 #[repr(C, align(32))]
 pub struct Lanes(pub [f32; WIDTH]);
 
+impl Lanes {
+    #[inline(always)]
+    pub fn splat(x: f32) -> Self {
+        Self([x; WIDTH])
+    }
+}
+
 /// Eight child boxes as structure of arrays, and eight [`Child`]ren. A free slot has the box `[inf, -inf]`, which no
 /// finite ray enters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub struct Node {
-    /// `min x, max x, min y, max y, min z, max z`.
-    pub planes: [Lanes; 6],
+    /// Lower and upper plane of each axis.
+    pub planes: [[Lanes; 2]; 3],
     pub child: [Child; WIDTH],
 }
 
@@ -38,6 +45,11 @@ impl Child {
     }
 
     #[inline(always)]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    #[inline(always)]
     pub fn is_leaf(self) -> bool {
         self.0 & Self::LEAF != 0
     }
@@ -50,28 +62,21 @@ impl Child {
 
 impl Node {
     const EMPTY: Self = Self {
-        planes: [
-            Lanes([f32::INFINITY; WIDTH]),
-            Lanes([f32::NEG_INFINITY; WIDTH]),
-            Lanes([f32::INFINITY; WIDTH]),
-            Lanes([f32::NEG_INFINITY; WIDTH]),
-            Lanes([f32::INFINITY; WIDTH]),
-            Lanes([f32::NEG_INFINITY; WIDTH]),
-        ],
+        planes: [[Lanes([f32::INFINITY; WIDTH]), Lanes([f32::NEG_INFINITY; WIDTH])]; 3],
         child: [Child(Child::LEAF); WIDTH],
     };
 
     fn set(&mut self, lane: usize, bounds: &Aabb, child: Child) {
         for a in 0..3 {
-            self.planes[2 * a].0[lane] = bounds.min[a];
-            self.planes[2 * a + 1].0[lane] = bounds.max[a];
+            self.planes[a][0].0[lane] = bounds.min[a];
+            self.planes[a][1].0[lane] = bounds.max[a];
         }
         self.child[lane] = child;
     }
 }
 
 /// Entries of the traversal stack. A node leaves at most seven children waiting.
-pub const STACK: usize = 128;
+pub const STACK: usize = 96;
 const MAX_DEPTH: usize = STACK / (WIDTH - 1);
 
 /// An 8-wide hierarchy over boxes; node 0 is the root. Empty if nothing is active.

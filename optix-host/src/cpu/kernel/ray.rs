@@ -1,6 +1,9 @@
 //! Rays: the query of a trace call, and what is derived from it once for each space it enters.
 
+use glam::Vec3A;
+
 use super::aabb::Aabb;
+use super::bvh::Lanes;
 
 /// The arguments of a trace call (guide §13.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +51,13 @@ pub struct Ray {
     pub direction: [f32; 3],
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    X,
+    Y,
+    Z,
+}
+
 /// What the triangle test needs of a ray: the shear of Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection"
 /// (JCGT 2013), which maps the ray to the `z` axis. It is the same for all triangles, so that a vertex goes to the same
 /// three floats whichever triangle it is read from.
@@ -55,26 +65,26 @@ pub struct Ray {
 pub struct ShearRay {
     pub origin: [f32; 3],
     /// The axis of the largest direction element last; the first two keep the winding as seen along the ray.
-    pub axes: [usize; 3],
+    pub axes: [Axis; 3],
     /// `d[axes[0]] / d[axes[2]]` and `d[axes[1]] / d[axes[2]]`, rounded; magnitude at most 1.
     pub slope: [f32; 2],
     /// `d[axes[2]]`: depth along the major axis is `t` times this.
     pub major: f64,
 }
 
-/// What the box test needs of a ray. See [`Frame::new`] for why no box is missed.
+/// What the box test needs of a ray, each number in all lanes of a register. See [`Frame::new`] for why no box is missed.
 ///
 /// Distances here are *depths*: lengths along the major axis, `t * |d[major]|`, in the units of the space.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxRay {
     /// Origins moved outwards by the margin, for the near and the far plane of each axis.
-    pub near_origin: [f32; 3],
-    pub far_origin: [f32; 3],
+    pub near_origin: [Lanes; 3],
+    pub far_origin: [Lanes; 3],
     /// Reciprocal slopes against depth: never 0, infinite or NaN.
-    pub inverse: [f32; 3],
-    /// Index in [`Node::planes`](super::bvh::Node) of the near plane of each axis; the far plane's is this `^ 1`.
-    pub near_plane: [usize; 3],
-    pub depth_min: f32,
+    pub inverse: [Lanes; 3],
+    /// Whether the near plane of each axis is the upper one.
+    pub backward: [bool; 3],
+    pub depth_min: Lanes,
 }
 
 /// A ray prepared for one space and one structure in it.
@@ -84,6 +94,8 @@ pub struct Frame {
     pub boxes: BoxRay,
 }
 
+/// Of the reach: `16 e`.
+const MARGIN: f32 = 1.0 / (1 << 20) as f32;
 /// Slopes below this are raised to it: at any depth within `R` that moves the ray by less than `2^-40 R`.
 const MIN_SLOPE: f32 = 1.0 / (1u64 << 40) as f32;
 /// Beyond this distance differences of coordinates could overflow; the structure is then missed.
@@ -110,70 +122,73 @@ impl Frame {
     /// `fl(fl(lo - o') * fl(1 / s))` with three roundings, a relative error of at most `3.01 e` of a length that is at
     /// most `R`: `3.01 e R` more. Raising small slopes adds `2^-40 R`. So a margin of `10 e R` is enough; `16 e R` is
     /// used, and `2^-120` is added so that rounding of denormal numbers is covered as well. The margin is put into the
-    /// origin, rounded outwards, where it costs nothing per box.
+    /// origin, where it costs nothing per box.
     ///
     /// `slack` multiplies the margin: 1 for a structure of primitives, more where boxes stand for transformed content
     /// (see [`Ias`](super::Ias)).
+    #[inline]
     pub fn new(ray: &Ray, tmin: f32, bounds: &Aabb, slack: f32) -> Option<Self> {
-        let Ray { origin, direction } = *ray;
-        let magnitude = direction.map(f32::abs);
-        let finite = origin.iter().chain(&direction).all(|x| x.is_finite());
-        let z = match magnitude {
-            [x, y, z] if x >= y && x >= z => 0,
-            [_, y, z] if y >= z => 1,
-            _ => 2,
-        };
-        let major = direction[z];
-        let reach = (0..3).fold(0.0f32, |reach, a| {
-            reach.max((bounds.min[a] - origin[a]).abs()).max((bounds.max[a] - origin[a]).abs())
-        });
-        if !finite || major == 0.0 || bounds.is_empty() || !(reach <= MAX_REACH) {
+        let (origin, direction) = (Vec3A::from_array(ray.origin), Vec3A::from_array(ray.direction));
+        let (low, high) = (Vec3A::from_array(bounds.min), Vec3A::from_array(bounds.max));
+        let magnitude = direction.abs();
+        let reach = (low - origin).abs().max((high - origin).abs()).max_element();
+        let length = magnitude.max_element();
+        // `reach` is infinite for an empty box.
+        if !(origin.is_finite() && direction.is_finite() && length > 0.0 && reach <= MAX_REACH) {
             return None;
         }
+        let axis = match magnitude.to_array() {
+            [x, y, _] if x == length && x >= y => Axis::X,
+            [_, y, _] if y == length => Axis::Y,
+            _ => Axis::Z,
+        };
+        let major = ray.direction[axis as usize];
 
-        let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
-        if major < 0.0 {
-            (x, y) = (y, x);
-        }
+        let slope = direction / length;
+        let axes = match (axis, major < 0.0) {
+            (Axis::X, false) => [Axis::Y, Axis::Z, Axis::X],
+            (Axis::X, true) => [Axis::Z, Axis::Y, Axis::X],
+            (Axis::Y, false) => [Axis::Z, Axis::X, Axis::Y],
+            (Axis::Y, true) => [Axis::X, Axis::Z, Axis::Y],
+            (Axis::Z, false) => [Axis::X, Axis::Y, Axis::Z],
+            (Axis::Z, true) => [Axis::Y, Axis::X, Axis::Z],
+        };
+        // Division is symmetric in sign: these are the quotients by the major element.
+        let [x, y] = [axes[0], axes[1]].map(|a| slope[a as usize].to_bits() ^ (major.to_bits() & (1 << 31)));
         let shear = ShearRay {
-            origin,
-            axes: [x, y, z],
-            slope: [direction[x] / major, direction[y] / major],
+            origin: ray.origin,
+            axes,
+            slope: [f32::from_bits(x), f32::from_bits(y)],
             major: f64::from(major),
         };
 
-        let margin = (reach * (1.0 / (1 << 20) as f32) * slack).min(2.0 * reach) + f32::MIN_POSITIVE * 64.0;
-        let mut boxes = BoxRay {
-            near_origin: origin,
-            far_origin: origin,
-            inverse: [0.0; 3],
-            near_plane: [0; 3],
-            depth_min: 0.0,
+        let raised = Vec3A::splat(MIN_SLOPE).copysign(slope);
+        let slope = Vec3A::select(slope.abs().cmplt(Vec3A::splat(MIN_SLOPE)), raised, slope);
+        let margin = (reach * MARGIN * slack).min(2.0 * reach) + 64.0 * f32::MIN_POSITIVE;
+        // The second part is twice what rounding the sums below can take away.
+        let margin = Vec3A::splat(margin) + origin.abs() * f32::EPSILON;
+        let (above, below) = (origin + margin, origin - margin);
+        let backward = slope.cmplt(Vec3A::ZERO);
+        let t = (f64::from(tmin) - SMALLEST).max(0.0);
+        let boxes = BoxRay {
+            near_origin: Vec3A::select(backward, below, above).to_array().map(Lanes::splat),
+            far_origin: Vec3A::select(backward, above, below).to_array().map(Lanes::splat),
+            inverse: slope.recip().to_array().map(Lanes::splat),
+            backward: [0, 1, 2].map(|a| backward.test(a)),
+            depth_min: Lanes::splat((t * f64::from(length) * (1.0 - DEPTH_SLACK)) as f32),
         };
-        for a in 0..3 {
-            // Division is symmetric in sign, so this is the shear's slope up to the sign of the major element.
-            let slope = direction[a] / major.abs();
-            let slope = if slope.abs() < MIN_SLOPE { MIN_SLOPE.copysign(slope) } else { slope };
-            boxes.inverse[a] = 1.0 / slope;
-            let (above, below) = ((origin[a] + margin).next_up(), (origin[a] - margin).next_down());
-            if slope > 0.0 {
-                (boxes.near_origin[a], boxes.far_origin[a], boxes.near_plane[a]) = (above, below, 2 * a);
-            } else {
-                (boxes.near_origin[a], boxes.far_origin[a], boxes.near_plane[a]) = (below, above, 2 * a + 1);
-            }
-        }
-        let frame = Self { shear, boxes };
-        let t = (f64::from(tmin) - f64::from(f32::from_bits(1))).max(0.0);
-        let depth_min = (t * frame.shear.major.abs() * (1.0 - DEPTH_SLACK)) as f32;
-        Some(Self { boxes: BoxRay { depth_min, ..frame.boxes }, ..frame })
+        Some(Self { shear, boxes })
     }
 
     /// A depth that no hit with `t <= tmax` exceeds: `t` was rounded from its depth, by half an ulp.
+    #[inline]
     pub fn depth_max(&self, tmax: f32) -> f32 {
-        let t = f64::from(tmax) + f64::from(f32::from_bits(1));
+        let t = f64::from(tmax) + SMALLEST;
         (t * self.shear.major.abs() * (1.0 + DEPTH_SLACK)) as f32
     }
 }
 
+/// The smallest `f32` above 0: more than a `t` among the denormal numbers is off by.
+const SMALLEST: f64 = 1.0 / (1u64 << 63) as f64 / (1u64 << 63) as f64 / (1u64 << 23) as f64;
 /// Covers the rounding of `t` (`2^-24`) and of the depth limit itself (`2^-24`).
 const DEPTH_SLACK: f64 = 1.0 / (1 << 22) as f64;

@@ -51,18 +51,19 @@ impl Simd for Portable {
     #[inline(always)]
     fn boxes(self, node: &Node, ray: &BoxRay, depth_max: f32, near: &mut Lanes) -> u32 {
         let mut far = [0.0; WIDTH];
-        let plane = |a: usize| &node.planes[ray.near_plane[a]].0;
-        let [nx, ny, nz] = [plane(0), plane(1), plane(2)];
-        let plane = |a: usize| &node.planes[ray.near_plane[a] ^ 1].0;
-        let [fx, fy, fz] = [plane(0), plane(1), plane(2)];
+        let planes = |upper: [bool; 3]| [0, 1, 2].map(|a| &node.planes[a][usize::from(upper[a])].0);
+        let [nx, ny, nz] = planes(ray.backward);
+        let [fx, fy, fz] = planes(ray.backward.map(|b| !b));
+        let [ix, iy, iz] = &ray.inverse;
+        let ([ox, oy, oz], [px, py, pz]) = (&ray.near_origin, &ray.far_origin);
         for i in 0..WIDTH {
-            let x = (nx[i] - ray.near_origin[0]) * ray.inverse[0];
-            let y = (ny[i] - ray.near_origin[1]) * ray.inverse[1];
-            let z = (nz[i] - ray.near_origin[2]) * ray.inverse[2];
-            near.0[i] = max(max(x, y), max(z, ray.depth_min));
-            let x = (fx[i] - ray.far_origin[0]) * ray.inverse[0];
-            let y = (fy[i] - ray.far_origin[1]) * ray.inverse[1];
-            let z = (fz[i] - ray.far_origin[2]) * ray.inverse[2];
+            let x = (nx[i] - ox.0[i]) * ix.0[i];
+            let y = (ny[i] - oy.0[i]) * iy.0[i];
+            let z = (nz[i] - oz.0[i]) * iz.0[i];
+            near.0[i] = max(max(x, y), max(z, ray.depth_min.0[i]));
+            let x = (fx[i] - px.0[i]) * ix.0[i];
+            let y = (fy[i] - py.0[i]) * iy.0[i];
+            let z = (fz[i] - pz.0[i]) * iz.0[i];
             far[i] = min(min(x, y), min(z, depth_max));
         }
         (0..WIDTH).fold(0, |mask, i| mask | (u32::from(near.0[i] <= far[i]) << i))
@@ -72,8 +73,8 @@ impl Simd for Portable {
     fn triangles(self, block: &Block, ray: &ShearRay) -> u32 {
         let mut sheared = [[[0.0f32; WIDTH]; 2]; 3];
         for (corner, out) in block.corners.iter().zip(&mut sheared) {
-            let [x, y, z] = ray.axes.map(|a| &corner[a].0);
-            let [ox, oy, oz] = ray.axes.map(|a| ray.origin[a]);
+            let [x, y, z] = ray.axes.map(|a| &corner[a as usize].0);
+            let [ox, oy, oz] = ray.axes.map(|a| ray.origin[a as usize]);
             for i in 0..WIDTH {
                 let depth = z[i] - oz;
                 out[0][i] = (x[i] - ox) - ray.slope[0] * depth;
@@ -149,19 +150,18 @@ mod avx2 {
 
     #[inline]
     #[target_feature(enable = "avx2,bmi1")]
-    fn slab(node: &Node, plane: usize, origin: f32, inverse: f32) -> __m256 {
-        let distance = _mm256_sub_ps(load(&node.planes[plane]), _mm256_set1_ps(origin));
-        _mm256_mul_ps(distance, _mm256_set1_ps(inverse))
+    fn slab(planes: &[Lanes; 2], upper: bool, origin: &Lanes, inverse: &Lanes) -> __m256 {
+        _mm256_mul_ps(_mm256_sub_ps(load(&planes[usize::from(upper)]), load(origin)), load(inverse))
     }
 
     #[inline]
     #[target_feature(enable = "avx2,bmi1")]
     fn boxes(node: &Node, ray: &BoxRay, depth_max: f32, near: &mut Lanes) -> u32 {
         let [nx, ny, nz] =
-            [0, 1, 2].map(|a| slab(node, ray.near_plane[a], ray.near_origin[a], ray.inverse[a]));
+            [0, 1, 2].map(|a| slab(&node.planes[a], ray.backward[a], &ray.near_origin[a], &ray.inverse[a]));
         let [fx, fy, fz] =
-            [0, 1, 2].map(|a| slab(node, ray.near_plane[a] ^ 1, ray.far_origin[a], ray.inverse[a]));
-        let enter = _mm256_max_ps(_mm256_max_ps(nx, ny), _mm256_max_ps(nz, _mm256_set1_ps(ray.depth_min)));
+            [0, 1, 2].map(|a| slab(&node.planes[a], !ray.backward[a], &ray.far_origin[a], &ray.inverse[a]));
+        let enter = _mm256_max_ps(_mm256_max_ps(nx, ny), _mm256_max_ps(nz, load(&ray.depth_min)));
         let leave = _mm256_min_ps(_mm256_min_ps(fx, fy), _mm256_min_ps(fz, _mm256_set1_ps(depth_max)));
         near.0 = bytemuck::cast(enter);
         _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, leave)) as u32
@@ -170,10 +170,10 @@ mod avx2 {
     #[inline]
     #[target_feature(enable = "avx2,bmi1")]
     fn triangles(block: &Block, ray: &ShearRay) -> u32 {
-        let [ox, oy, oz] = ray.axes.map(|a| _mm256_set1_ps(ray.origin[a]));
+        let [ox, oy, oz] = ray.axes.map(|a| _mm256_set1_ps(ray.origin[a as usize]));
         let [sx, sy] = ray.slope.map(|s| _mm256_set1_ps(s));
         let shear = |corner: &[Lanes; 3]| {
-            let [x, y, z] = ray.axes.map(|a| load(&corner[a]));
+            let [x, y, z] = ray.axes.map(|a| load(&corner[a as usize]));
             let depth = _mm256_sub_ps(z, oz);
             [
                 _mm256_sub_ps(_mm256_sub_ps(x, ox), _mm256_mul_ps(sx, depth)),

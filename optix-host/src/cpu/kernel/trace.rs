@@ -256,60 +256,78 @@ fn site<'s>(ids: Ids, gas: &'s Gas, here: &Place, query: &'s RayQuery, path: &'s
 
 /// A child and where the ray enters it, in one number that sorts by depth; depths are not negative, so their bits sort
 /// as they do.
-#[inline(always)]
-fn entry(depth: f32, child: Child) -> u64 {
-    u64::from(depth.to_bits()) << 32 | u64::from(child.0)
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Entry(u64);
+
+impl Entry {
+    #[inline(always)]
+    fn new(depth: f32, child: Child) -> Self {
+        Self(u64::from(depth.to_bits()) << 32 | u64::from(child.0))
+    }
+
+    #[inline(always)]
+    fn depth(self) -> f32 {
+        f32::from_bits((self.0 >> 32) as u32)
+    }
+
+    #[inline(always)]
+    fn child(self) -> Child {
+        Child(self.0 as u32)
+    }
 }
 
 /// Visits, nearest first, the leaves whose boxes the ray meets at a depth of at most `limit`. `visit` gets a leaf's
 /// payload and the limit, and gives the new limit; negative infinity ends the walk.
 #[inline(always)]
 fn walk<S: Simd>(simd: S, bvh: &Bvh, ray: &BoxRay, mut limit: f32, mut visit: impl FnMut(u32, f32) -> f32) {
-    let mut stack = [0u64; STACK];
+    let mut stack = [Entry(0); STACK];
     let mut top = 0;
     let mut at = Child::node(0);
-    let mut near = Lanes([0.0; 8]);
+    let mut near = Lanes::splat(0.0);
     loop {
-        let next = if at.is_leaf() {
+        if at.is_leaf() {
             limit = visit(at.payload(), limit);
             if limit == f32::NEG_INFINITY {
                 return;
             }
-            None
         } else {
-            let node = &bvh.nodes[at.0 as usize];
+            let node = &bvh.nodes[at.index()];
             let mut met = simd.boxes(node, ray, limit, &mut near);
-            let base = top;
-            while met != 0 {
-                let lane = met.trailing_zeros() as usize & 7;
+            if met != 0 {
+                let entry = |met: u32| {
+                    let lane = met.trailing_zeros() as usize & 7;
+                    Entry::new(near.0[lane], node.child[lane])
+                };
+                // The nearest child is next; the others wait on the stack, the farthest lowest.
+                let mut nearest = entry(met);
                 met &= met - 1;
-                let new = entry(near.0[lane], node.child[lane]);
-                let mut hole = top;
-                while hole > base && stack[hole - 1] < new {
-                    stack[hole] = stack[hole - 1];
-                    hole -= 1;
+                let base = top;
+                while met != 0 {
+                    let other = entry(met);
+                    met &= met - 1;
+                    let farther = nearest.max(other);
+                    nearest = nearest.min(other);
+                    let mut place = top;
+                    while place > base && stack[place - 1] < farther {
+                        stack[place] = stack[place - 1];
+                        place -= 1;
+                    }
+                    stack[place] = farther;
+                    top += 1;
                 }
-                stack[hole] = new;
-                top += 1;
+                at = nearest.child();
+                continue;
             }
-            if top > base {
-                top -= 1;
-                Some(Child(stack[top] as u32))
-            } else {
-                None
+        }
+        loop {
+            if top == 0 {
+                return;
             }
-        };
-        at = match next {
-            Some(child) => child,
-            None => loop {
-                if top == 0 {
-                    return;
-                }
-                top -= 1;
-                if f32::from_bits((stack[top] >> 32) as u32) <= limit {
-                    break Child(stack[top] as u32);
-                }
-            },
-        };
+            top -= 1;
+            if stack[top].depth() <= limit {
+                at = stack[top].child();
+                break;
+            }
+        }
     }
 }

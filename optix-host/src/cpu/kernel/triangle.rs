@@ -74,7 +74,7 @@ pub const EDGE_ABSOLUTE: f32 = f32::MIN_POSITIVE * 2.0;
 /// A corner in the ray's sheared space. The vector test does the same operations in the same order.
 #[inline(always)]
 fn shear(ray: &ShearRay, corner: [f32; 3]) -> [f32; 3] {
-    let [x, y, z] = ray.axes.map(|a| corner[a] - ray.origin[a]);
+    let [x, y, z] = ray.axes.map(|a| corner[a as usize] - ray.origin[a as usize]);
     [x - ray.slope[0] * z, y - ray.slope[1] * z, z]
 }
 
@@ -98,10 +98,8 @@ pub fn hit(ray: &ShearRay, triangle: [[f32; 3]; 3]) -> Option<TriangleHit> {
     if determinant == 0.0 || !determinant.is_finite() {
         return None;
     }
-    let [u, v, w] = [u, v, w].map(|x| x / determinant);
-    let depth = u * f64::from(a[2]) + v * f64::from(b[2]) + w * f64::from(c[2]);
-    let t = depth / ray.major;
+    let t = (u * f64::from(a[2]) + v * f64::from(b[2]) + w * f64::from(c[2])) / (determinant * ray.major);
     // Before rounding, which could make 0 of a hit behind the origin. `+ 0.0` turns -0 into 0.
     let (behind, t) = (t < 0.0, t as f32 + 0.0);
-    (!behind && t.is_finite()).then_some(TriangleHit { t, u: v as f32, v: w as f32, front: determinant > 0.0 })
+    (!behind && t.is_finite()).then_some(TriangleHit { t, u: (v / determinant) as f32, v: (w / determinant) as f32, front: determinant > 0.0 })
 }

@@ -31,11 +31,7 @@ impl DeviceBuffer {
             // SAFETY: the CUDA context is current; the memory is freed by `drop` only.
             address = context.cuda("cuMemAlloc", unsafe { result::malloc_sync(len) })?;
         }
-        Ok(Self {
-            context: context.clone(),
-            address,
-            len,
-        })
+        Ok(Self { context: context.clone(), address, len })
     }
 
     /// `len` bytes of 0.
@@ -85,11 +81,7 @@ impl DeviceBuffer {
     pub fn upload(&self, offset: usize, bytes: &[u8]) -> Result<(), Error> {
         // SAFETY: the stream is waited for before `bytes` can go.
         unsafe { self.upload_async(offset, bytes)? };
-        if bytes.is_empty() {
-            Ok(())
-        } else {
-            self.context.synchronize()
-        }
+        if bytes.is_empty() { Ok(()) } else { self.context.synchronize() }
     }
 
     /// As [`Self::upload`], without waiting.
@@ -103,13 +95,8 @@ impl DeviceBuffer {
         }
         let _current = self.context.enter()?;
         // SAFETY: the range is inside the allocation, and the caller keeps `bytes` alive.
-        let result = unsafe {
-            result::memcpy_htod_async(
-                self.address + offset as u64,
-                bytes,
-                self.context.cuda_stream(),
-            )
-        };
+        let result =
+            unsafe { result::memcpy_htod_async(self.address + offset as u64, bytes, self.context.cuda_stream()) };
         self.context.cuda("cuMemcpyHtoDAsync", result)
     }
 
@@ -126,8 +113,7 @@ impl DeviceBuffer {
         let stream = self.context.cuda_stream();
         // SAFETY: the range is inside the allocation, and the stream is waited for before `bytes` can go. If waiting
         // fails the CUDA context is lost and copies nothing more.
-        let result =
-            unsafe { result::memcpy_dtoh_async(bytes, self.address + offset as u64, stream) };
+        let result = unsafe { result::memcpy_dtoh_async(bytes, self.address + offset as u64, stream) };
         self.context.cuda("cuMemcpyDtoHAsync", result)?;
         self.context.synchronize()
     }
@@ -142,9 +128,7 @@ impl DeviceBuffer {
         }
         let _current = self.context.enter()?;
         // SAFETY: the range is the whole allocation.
-        let result = unsafe {
-            result::memset_d8_async(self.address, 0, self.len, self.context.cuda_stream())
-        };
+        let result = unsafe { result::memset_d8_async(self.address, 0, self.len, self.context.cuda_stream()) };
         self.context.cuda("cuMemsetD8Async", result)
     }
 
@@ -153,10 +137,7 @@ impl DeviceBuffer {
             Some(end) if end <= self.len => Ok(()),
             _ => Err(Error::invalid(
                 "a copy of device memory",
-                format!(
-                    "{len} bytes at offset {offset} do not fit a buffer of {} bytes",
-                    self.len
-                ),
+                format!("{len} bytes at offset {offset} do not fit a buffer of {} bytes", self.len),
                 "make the buffer as large as what is copied",
             )),
         }
@@ -195,16 +176,10 @@ impl PinnedBuffer {
     pub(super) fn new(context: &Context, len: usize) -> Result<Self, Error> {
         let _current = context.enter()?;
         // SAFETY: the CUDA context is current; the memory is freed by `drop` only.
-        let pointer = context
-            .cuda("cuMemHostAlloc", unsafe { result::malloc_host(len, 0) })?
-            .cast::<u8>();
+        let pointer = context.cuda("cuMemHostAlloc", unsafe { result::malloc_host(len, 0) })?.cast::<u8>();
         // SAFETY: `len` bytes were just allocated there.
         unsafe { pointer.write_bytes(0, len) };
-        Ok(Self {
-            context: context.clone(),
-            pointer,
-            len,
-        })
+        Ok(Self { context: context.clone(), pointer, len })
     }
 
     pub(super) fn bytes(&self) -> &[u8] {

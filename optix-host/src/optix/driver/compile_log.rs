@@ -11,10 +11,7 @@ impl CompileLog {
     const SIZE: usize = 64 << 10;
 
     pub(super) fn new() -> Self {
-        Self {
-            buffer: vec![0; Self::SIZE],
-            size: Self::SIZE,
-        }
+        Self { buffer: vec![0; Self::SIZE], size: Self::SIZE }
     }
 
     /// The buffer and its in-out size, valid until the next use of `self`.
@@ -23,14 +20,8 @@ impl CompileLog {
     }
 
     pub(super) fn text(&self) -> String {
-        let end = self
-            .buffer
-            .iter()
-            .position(|&byte| byte == 0)
-            .unwrap_or(self.buffer.len());
-        let mut text = String::from_utf8_lossy(&self.buffer[..end])
-            .trim_end()
-            .to_owned();
+        let end = self.buffer.iter().position(|&byte| byte == 0).unwrap_or(self.buffer.len());
+        let mut text = String::from_utf8_lossy(&self.buffer[..end]).trim_end().to_owned();
         if self.size > self.buffer.len() {
             text.push_str(&format!("\n[{} bytes of {} shown]", end, self.size));
         }
@@ -47,11 +38,7 @@ mod tests {
         let mut log = CompileLog::new();
         log.buffer.fill(b'x');
         log.size = CompileLog::SIZE + 5;
-        assert!(log.text().ends_with(&format!(
-            "[{0} bytes of {1} shown]",
-            CompileLog::SIZE,
-            CompileLog::SIZE + 5
-        )));
+        assert!(log.text().ends_with(&format!("[{0} bytes of {1} shown]", CompileLog::SIZE, CompileLog::SIZE + 5)));
         let mut log = CompileLog::new();
         let (buffer, size) = log.parts();
         // SAFETY: the buffer is longer than this and `size` is valid for a write.

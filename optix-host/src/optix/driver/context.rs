@@ -85,11 +85,7 @@ impl Context {
         let info = cuda::describe(options.ordinal)?;
         let api = library::api()?;
         // SAFETY: `device` was returned by cuDeviceGet.
-        let cuda = cuda::check(
-            "cuDevicePrimaryCtxRetain",
-            unsafe { result::primary_ctx::retain(device) },
-            Vec::new,
-        )?;
+        let cuda = cuda::check("cuDevicePrimaryCtxRetain", unsafe { result::primary_ctx::retain(device) }, Vec::new)?;
         // From here on dropping `inner` releases what was made so far.
         let mut inner = Inner {
             api,
@@ -142,10 +138,7 @@ impl Context {
     pub fn cache_enabled(&self) -> Result<bool, Error> {
         let mut enabled = 0;
         // SAFETY: the context is live and `enabled` is valid for a write.
-        let result = unsafe {
-            self.table()
-                .device_context_get_cache_enabled(self.0.raw, &mut enabled)
-        };
+        let result = unsafe { self.table().device_context_get_cache_enabled(self.0.raw, &mut enabled) };
         self.check("optixDeviceContextGetCacheEnabled", result)?;
         Ok(enabled != 0)
     }
@@ -167,9 +160,7 @@ impl Context {
     pub fn synchronize(&self) -> Result<(), Error> {
         let _current = self.enter()?;
         // SAFETY: the stream is live and its context is current.
-        self.cuda("cuStreamSynchronize", unsafe {
-            result::stream::synchronize(self.0.stream)
-        })
+        self.cuda("cuStreamSynchronize", unsafe { result::stream::synchronize(self.0.stream) })
     }
 
     /// Whether both are the same context, so that objects of one may be used with the other.
@@ -199,11 +190,7 @@ impl Context {
         self.0.enter()
     }
 
-    pub(super) fn cuda<T>(
-        &self,
-        call: &'static str,
-        result: Result<T, DriverError>,
-    ) -> Result<T, Error> {
+    pub(super) fn cuda<T>(&self, call: &'static str, result: Result<T, DriverError>) -> Result<T, Error> {
         self.0.cuda(call, result)
     }
 
@@ -211,12 +198,7 @@ impl Context {
         self.0.check(call, result, String::new)
     }
 
-    pub(super) fn check_compile(
-        &self,
-        call: &'static str,
-        result: OptixResult,
-        log: &CompileLog,
-    ) -> Result<(), Error> {
+    pub(super) fn check_compile(&self, call: &'static str, result: OptixResult, log: &CompileLog) -> Result<(), Error> {
         self.0.check(call, result, || log.text())
     }
 
@@ -226,11 +208,7 @@ impl Context {
             return Ok(());
         }
         let problem = "the objects belong to different contexts";
-        Err(Error::invalid(
-            what,
-            problem,
-            "make all objects of a pipeline from one context (guide §1)",
-        ))
+        Err(Error::invalid(what, problem, "make all objects of a pipeline from one context (guide §1)"))
     }
 }
 
@@ -244,18 +222,11 @@ impl Inner {
         cuda::check(call, result, || self.log.take_unreported())
     }
 
-    fn check(
-        &self,
-        call: &'static str,
-        result: OptixResult,
-        log: impl FnOnce() -> String,
-    ) -> Result<(), Error> {
+    fn check(&self, call: &'static str, result: OptixResult, log: impl FnOnce() -> String) -> Result<(), Error> {
         if result == OptixResult::SUCCESS {
             return Ok(());
         }
-        let text = |text: Option<&std::ffi::CStr>| {
-            text.map_or_else(String::new, |t| t.to_string_lossy().into_owned())
-        };
+        let text = |text: Option<&std::ffi::CStr>| text.map_or_else(String::new, |t| t.to_string_lossy().into_owned());
         Err(Error::Optix(Box::new(OptixFailure {
             call,
             name: text(self.api.table.get_error_name(result)),
@@ -280,11 +251,7 @@ impl Inner {
         let mut raw = sys::OptixDeviceContext::NULL;
         // SAFETY: the CUDA context is live, the pointers are to locals of the right type, and `self` keeps the log sink
         // alive until after the OptiX context is destroyed.
-        let result = unsafe {
-            self.api
-                .table
-                .device_context_create(self.cuda, &raw_options, &mut raw)
-        };
+        let result = unsafe { self.api.table.device_context_create(self.cuda, &raw_options, &mut raw) };
         self.check("optixDeviceContextCreate", result, String::new)?;
         Ok(raw)
     }
@@ -305,8 +272,7 @@ impl Inner {
             DiskCache::Default => Ok(()),
             DiskCache::Off => {
                 // SAFETY: the context is live.
-                let result =
-                    unsafe { self.api.table.device_context_set_cache_enabled(self.raw, 0) };
+                let result = unsafe { self.api.table.device_context_set_cache_enabled(self.raw, 0) };
                 self.check("optixDeviceContextSetCacheEnabled", result, String::new)
             }
             DiskCache::At(path) => {
@@ -319,11 +285,7 @@ impl Inner {
                     ));
                 };
                 // SAFETY: the context is live and `text` ends in NUL.
-                let result = unsafe {
-                    self.api
-                        .table
-                        .device_context_set_cache_location(self.raw, text.as_ptr())
-                };
+                let result = unsafe { self.api.table.device_context_set_cache_location(self.raw, text.as_ptr()) };
                 self.check("optixDeviceContextSetCacheLocation", result, String::new)
             }
         }
@@ -358,21 +320,10 @@ mod tests {
 
     #[test]
     fn a_context_is_made_or_the_missing_driver_is_named() {
-        match Context::new(&ContextOptions {
-            validation: true,
-            ..Default::default()
-        }) {
+        match Context::new(&ContextOptions { validation: true, ..Default::default() }) {
             Ok(context) => assert!(context.limits().max_trace_depth > 0),
             Err(Error::LibraryNotFound { library, .. }) => {
-                assert!(
-                    [
-                        "libcuda.so.1",
-                        "libnvoptix.so.1",
-                        "nvcuda.dll",
-                        "nvoptix.dll"
-                    ]
-                    .contains(&library)
-                );
+                assert!(["libcuda.so.1", "libnvoptix.so.1", "nvcuda.dll", "nvoptix.dll"].contains(&library));
             }
             Err(error) => assert!(error.to_string().contains("what to do"), "{error}"),
         }
@@ -380,11 +331,7 @@ mod tests {
 
     #[test]
     fn an_absurd_ordinal_is_an_error() {
-        let error = Context::new(&ContextOptions {
-            ordinal: usize::MAX,
-            ..Default::default()
-        })
-        .unwrap_err();
+        let error = Context::new(&ContextOptions { ordinal: usize::MAX, ..Default::default() }).unwrap_err();
         assert!(error.to_string().contains("what to do"), "{error}");
     }
 }

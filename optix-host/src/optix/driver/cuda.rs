@@ -9,11 +9,7 @@ use super::error::{CudaFailure, Error};
 use super::library;
 use super::log::LogMessage;
 
-const LIBRARY: &str = if cfg!(windows) {
-    "nvcuda.dll"
-} else {
-    "libcuda.so.1"
-};
+const LIBRARY: &str = if cfg!(windows) { "nvcuda.dll" } else { "libcuda.so.1" };
 
 /// A GPU as CUDA describes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,6 +28,17 @@ pub struct DeviceInfo {
     pub driver_version: Option<String>,
 }
 
+impl std::fmt::Display for DeviceInfo {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (major, minor) = self.compute_capability;
+        let gibibytes = self.memory_bytes as f64 / f64::from(1 << 30);
+        write!(f, "GPU {}: {}, compute capability {major}.{minor}", self.ordinal, self.name)?;
+        let (major, minor) = self.cuda_version;
+        let driver = self.driver_version.as_deref().unwrap_or("unknown");
+        write!(f, ", {gibibytes:.1} GiB, driver {driver}, CUDA {major}.{minor}")
+    }
+}
+
 /// The GPUs that CUDA sees. Empty when the driver is there and no GPU is.
 ///
 /// # Errors
@@ -39,11 +46,7 @@ pub struct DeviceInfo {
 pub fn devices() -> Result<Vec<DeviceInfo>, Error> {
     if let Err(error) = init() {
         // CUDA_ERROR_NO_DEVICE is how the driver says that the list is empty.
-        return if error.code() == Some(100) {
-            Ok(Vec::new())
-        } else {
-            Err(error)
-        };
+        return if error.code() == Some(100) { Ok(Vec::new()) } else { Err(error) };
     }
     (0..count()?).map(describe).collect()
 }
@@ -108,11 +111,7 @@ pub(super) fn describe(ordinal: usize) -> Result<DeviceInfo, Error> {
     let memory = unsafe { result::device::total_mem(device) };
     Ok(DeviceInfo {
         ordinal,
-        name: check(
-            "cuDeviceGetName",
-            result::device::get_name(device),
-            Vec::new,
-        )?,
+        name: check("cuDeviceGetName", result::device::get_name(device), Vec::new)?,
         compute_capability: (
             attribute(Attribute::CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR)?,
             attribute(Attribute::CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR)?,
@@ -132,10 +131,7 @@ pub(super) fn display_driver_version() -> Option<String> {
 /// The first word made of two or more numbers with dots between.
 fn parse_driver_version(text: &str) -> Option<String> {
     let is_version = |word: &&str| {
-        word.contains('.')
-            && word
-                .split('.')
-                .all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()))
+        word.contains('.') && word.split('.').all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()))
     };
     text.split_whitespace().find(is_version).map(str::to_owned)
 }
@@ -148,10 +144,7 @@ pub(super) fn check<T>(
 ) -> Result<T, Error> {
     result.map_err(|error| {
         let text = |text: Result<&std::ffi::CStr, DriverError>| {
-            text.map_or_else(
-                |_| "unknown".to_owned(),
-                |text| text.to_string_lossy().into_owned(),
-            )
+            text.map_or_else(|_| "unknown".to_owned(), |text| text.to_string_lossy().into_owned())
         };
         Error::Cuda(Box::new(CudaFailure {
             call,
@@ -175,9 +168,7 @@ impl Current {
     pub(super) unsafe fn push(context: cu::CUcontext) -> Result<Self, DriverError> {
         // SAFETY: the caller promises that the context is live.
         unsafe { cu::cuCtxPushCurrent_v2(context) }.result()?;
-        Ok(Self {
-            _not_send: std::marker::PhantomData,
-        })
+        Ok(Self { _not_send: std::marker::PhantomData })
     }
 }
 
@@ -204,14 +195,23 @@ mod tests {
     }
 
     #[test]
+    fn a_device_is_described_in_a_line() {
+        let device = DeviceInfo {
+            ordinal: 1,
+            name: "A GPU".into(),
+            compute_capability: (9, 0),
+            memory_bytes: 3 << 29,
+            cuda_version: (13, 0),
+            driver_version: Some("580.95.05".into()),
+        };
+        let text = "GPU 1: A GPU, compute capability 9.0, 1.5 GiB, driver 580.95.05, CUDA 13.0";
+        assert_eq!(device.to_string(), text);
+    }
+
+    #[test]
     fn without_a_driver_the_error_names_the_file() {
         match devices() {
-            Ok(devices) => assert!(
-                devices
-                    .iter()
-                    .enumerate()
-                    .all(|(i, device)| device.ordinal == i)
-            ),
+            Ok(devices) => assert!(devices.iter().enumerate().all(|(i, device)| device.ordinal == i)),
             Err(Error::LibraryNotFound { library, .. }) => assert_eq!(library, LIBRARY),
             Err(error) => assert!(matches!(error, Error::Cuda(_)), "{error}"),
         }

@@ -68,16 +68,8 @@ pub enum Error {
 }
 
 impl Error {
-    pub(super) fn invalid(
-        what: &'static str,
-        problem: impl Into<String>,
-        remedy: &'static str,
-    ) -> Self {
-        Self::Invalid {
-            what,
-            problem: problem.into(),
-            remedy,
-        }
+    pub(super) fn invalid(what: &'static str, problem: impl Into<String>, remedy: &'static str) -> Self {
+        Self::Invalid { what, problem: problem.into(), remedy }
     }
 
     /// The OptiX or CUDA result code, where a driver call failed.
@@ -119,11 +111,7 @@ impl std::error::Error for OptixFailure {}
 
 impl fmt::Display for OptixFailure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} returned {} ({}): {}",
-            self.call, self.name, self.code, self.text
-        )?;
+        write!(f, "{} returned {} ({}): {}", self.call, self.name, self.code, self.text)?;
         write!(f, "\n  what to do: {}", self.remedy())?;
         if !self.log.is_empty() {
             write!(f, "\n  compile log:\n{}", self.log.trim_end())?;
@@ -161,11 +149,7 @@ impl std::error::Error for CudaFailure {}
 
 impl fmt::Display for CudaFailure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} returned {} ({}): {}",
-            self.call, self.name, self.code, self.text
-        )?;
+        write!(f, "{} returned {} ({}): {}", self.call, self.name, self.code, self.text)?;
         write!(f, "\n  what to do: {}", self.remedy())?;
         for message in &self.messages {
             write!(f, "\n  OptiX log: {message}")?;
@@ -179,9 +163,7 @@ fn optix_remedy(result: OptixResult) -> &'static str {
         OptixResult::INVALID_VALUE => {
             "an argument is out of its range; the driver log names it when the context has validation switched on"
         }
-        OptixResult::HOST_OUT_OF_MEMORY => {
-            "free host memory; compiling large modules needs the most"
-        }
+        OptixResult::HOST_OUT_OF_MEMORY => "free host memory; compiling large modules needs the most",
         OptixResult::DEVICE_OUT_OF_MEMORY => {
             "free GPU memory: compact acceleration structures, build them one after another, lower the stack sizes"
         }
@@ -202,9 +184,7 @@ fn optix_remedy(result: OptixResult) -> &'static str {
             "an object of another context, or one already destroyed, was passed"
         }
         OptixResult::CUDA_NOT_INITIALIZED => "no CUDA context is current on this thread",
-        OptixResult::VALIDATION_FAILURE => {
-            "validation mode caught an error in a program; the driver log says which"
-        }
+        OptixResult::VALIDATION_FAILURE => "validation mode caught an error in a program; the driver log says which",
         OptixResult::INVALID_INPUT | OptixResult::INVALID_FILE_FORMAT => {
             "the module is not PTX that this driver reads: the log gives the line; PTX of a newer .version or a newer \
              .target than the driver or GPU knows is refused too"
@@ -233,9 +213,7 @@ fn optix_remedy(result: OptixResult) -> &'static str {
         OptixResult::INTERNAL_COMPILER_ERROR | OptixResult::INTERNAL_ERROR => {
             "an error inside the driver: try another driver version, optimisation level 0, or smaller programs, and report it"
         }
-        OptixResult::NOT_COMPATIBLE => {
-            "the acceleration structure was made for another kind of GPU or driver"
-        }
+        OptixResult::NOT_COMPATIBLE => "the acceleration structure was made for another kind of GPU or driver",
         OptixResult::PAYLOAD_TYPE_MISMATCH
         | OptixResult::PAYLOAD_TYPE_RESOLUTION_FAILED
         | OptixResult::PAYLOAD_TYPE_ID_INVALID => {
@@ -269,20 +247,14 @@ fn cuda_remedy(code: i32) -> &'static str {
         35 | 803 => {
             "the driver is too old for the CUDA version in use, or its parts are of different versions: update it"
         }
-        46 | 802 => {
-            "the GPU is in use or not ready yet: check nvidia-smi, compute mode and the fabric manager"
-        }
-        100 | 101 => {
-            "no usable GPU: check nvidia-smi, CUDA_VISIBLE_DEVICES and the container's --gpus"
-        }
+        46 | 802 => "the GPU is in use or not ready yet: check nvidia-smi, compute mode and the fabric manager",
+        100 | 101 => "no usable GPU: check nvidia-smi, CUDA_VISIBLE_DEVICES and the container's --gpus",
         201 | 709 => "the CUDA context is gone; the process has to start again",
         214 | 700 | 714 | 715 | 716 | 717 | 718 | 719 => {
             "a launch used a bad address or instruction: check the addresses in parameters and records, try validation \
              mode; the CUDA context is lost and the process has to start again"
         }
-        702 => {
-            "a launch ran longer than the display watchdog allows: launch fewer indices at a time"
-        }
+        702 => "a launch ran longer than the display watchdog allows: launch fewer indices at a time",
         999 => {
             "the kernel driver does not answer: check dmesg and nvidia-smi; after a driver update restart the machine"
         }
@@ -302,35 +274,18 @@ mod tests {
             code: 7200,
             text: "Invalid input".into(),
             log: "COMPILE ERROR: line 3\n".into(),
-            messages: vec![LogMessage {
-                level: 2,
-                tag: "COMPILER".into(),
-                text: "bad".into(),
-            }],
+            messages: vec![LogMessage { level: 2, tag: "COMPILER".into(), text: "bad".into() }],
         };
         let text = Error::Optix(Box::new(failure)).to_string();
-        for part in [
-            "optixModuleCreate",
-            "7200",
-            "what to do",
-            "line 3",
-            "[COMPILER] bad",
-        ] {
+        for part in ["optixModuleCreate", "7200", "what to do", "line 3", "[COMPILER] bad"] {
             assert!(text.contains(part), "{part} is missing in: {text}");
         }
     }
 
     #[test]
     fn every_listed_result_has_a_remedy_of_its_own() {
-        for code in [
-            7001, 7050, 7200, 7201, 7202, 7204, 7250, 7251, 7299, 7500, 7801, 7804, 7807, 7900,
-            7990,
-        ] {
-            assert_ne!(
-                optix_remedy(OptixResult(code)),
-                optix_remedy(OptixResult::UNKNOWN),
-                "{code}"
-            );
+        for code in [7001, 7050, 7200, 7201, 7202, 7204, 7250, 7251, 7299, 7500, 7801, 7804, 7807, 7900, 7990] {
+            assert_ne!(optix_remedy(OptixResult(code)), optix_remedy(OptixResult::UNKNOWN), "{code}");
         }
     }
 }

@@ -23,14 +23,8 @@ unsafe impl Sync for Event {}
 impl Event {
     pub(super) fn new(context: &Context) -> Result<Self, Error> {
         let _current = context.enter()?;
-        let raw = context.cuda(
-            "cuEventCreate",
-            result::event::create(cu::CUevent_flags::CU_EVENT_DEFAULT),
-        )?;
-        Ok(Self {
-            raw,
-            context: context.clone(),
-        })
+        let raw = context.cuda("cuEventCreate", result::event::create(cu::CUevent_flags::CU_EVENT_DEFAULT))?;
+        Ok(Self { raw, context: context.clone() })
     }
 
     /// Marks the end of the work asked for so far.
@@ -45,9 +39,7 @@ impl Event {
     pub(super) fn wait(&self) -> Result<(), Error> {
         let _current = self.context.enter()?;
         // SAFETY: the event is live.
-        self.context.cuda("cuEventSynchronize", unsafe {
-            result::event::synchronize(self.raw)
-        })
+        self.context.cuda("cuEventSynchronize", unsafe { result::event::synchronize(self.raw) })
     }
 
     /// Whether the stream has passed the mark.

@@ -40,9 +40,7 @@ pub struct Launch {
 
 impl fmt::Debug for Launch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Launch")
-            .field("pipeline", &self.pipeline)
-            .finish_non_exhaustive()
+        f.debug_struct("Launch").field("pipeline", &self.pipeline).finish_non_exhaustive()
     }
 }
 
@@ -71,12 +69,7 @@ impl Pipeline {
         let _current = context.enter()?;
         slot.upload(args.params)?;
         // From here on dropping `launch` waits for the stream, so that `slot` is free of copies.
-        let launch = Launch {
-            pipeline: self.clone(),
-            slot: Some(slot),
-            _sbt: args.sbt.clone(),
-            _keep: args.keep,
-        };
+        let launch = Launch { pipeline: self.clone(), slot: Some(slot), _sbt: args.sbt.clone(), _keep: args.keep };
         let Some(slot) = &launch.slot else {
             return Ok(launch);
         };
@@ -86,16 +79,7 @@ impl Pipeline {
         let result = unsafe {
             let (address, stream) = (slot.device.address(), context.cuda_stream());
             let (table, size) = (context.table(), args.params.len());
-            table.launch(
-                self.raw(),
-                stream,
-                address,
-                size,
-                &sbt,
-                width,
-                height,
-                depth,
-            )
+            table.launch(self.raw(), stream, address, size, &sbt, width, height, depth)
         };
         context.check("optixLaunch", result)?;
         slot.end.record()?;
@@ -126,9 +110,7 @@ impl Launch {
     /// # Errors
     /// As [`Self::wait`].
     pub fn is_done(&self) -> Result<bool, Error> {
-        self.slot
-            .as_ref()
-            .map_or(Ok(true), |slot| slot.end.is_done())
+        self.slot.as_ref().map_or(Ok(true), |slot| slot.end.is_done())
     }
 
     fn finish(&mut self) -> Result<Duration, Error> {
@@ -138,11 +120,7 @@ impl Launch {
         slot.end.wait()?;
         let time = slot.end.since(&slot.start)?;
         if let Some(slot) = self.slot.take() {
-            self.pipeline
-                .slots()
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .push(slot);
+            self.pipeline.slots().lock().unwrap_or_else(PoisonError::into_inner).push(slot);
         }
         Ok(time)
     }
@@ -172,11 +150,7 @@ impl Slot {
     fn new(context: &Context, len: usize) -> Result<Self, Error> {
         Ok(Self {
             device: DeviceBuffer::new(context, len)?,
-            host: if len == 0 {
-                None
-            } else {
-                Some(PinnedBuffer::new(context, len)?)
-            },
+            host: if len == 0 { None } else { Some(PinnedBuffer::new(context, len)?) },
             start: Event::new(context)?,
             end: Event::new(context)?,
         })
@@ -196,9 +170,7 @@ impl Slot {
 
 fn check_dims(dims: [u32; 3]) -> Result<(), Error> {
     // Two factors fit 64 bits, the third is checked for.
-    let size = dims
-        .iter()
-        .try_fold(1u64, |size, &dim| size.checked_mul(u64::from(dim)));
+    let size = dims.iter().try_fold(1u64, |size, &dim| size.checked_mul(u64::from(dim)));
     match size {
         Some(1..=MAX_LAUNCH) => Ok(()),
         _ => {
@@ -215,22 +187,12 @@ mod tests {
 
     #[test]
     fn a_launch_has_1_to_2_pow_30_indices() {
-        for dims in [
-            [1, 1, 1],
-            [1 << 30, 1, 1],
-            [1 << 15, 1 << 15, 1],
-            [1, 1 << 20, 1 << 10],
-        ] {
+        for dims in [[1, 1, 1], [1 << 30, 1, 1], [1 << 15, 1 << 15, 1], [1, 1 << 20, 1 << 10]] {
             assert!(check_dims(dims).is_ok(), "{dims:?}");
         }
-        for dims in [
-            [0, 1, 1],
-            [1, 1, 0],
-            [(1 << 30) + 1, 1, 1],
-            [1 << 15, 1 << 15, 2],
-            [u32::MAX; 3],
-            [1 << 31, 1 << 31, 4],
-        ] {
+        for dims in
+            [[0, 1, 1], [1, 1, 0], [(1 << 30) + 1, 1, 1], [1 << 15, 1 << 15, 2], [u32::MAX; 3], [1 << 31, 1 << 31, 4]]
+        {
             assert!(check_dims(dims).is_err(), "{dims:?}");
         }
     }

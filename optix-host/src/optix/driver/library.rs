@@ -8,11 +8,7 @@ use super::cuda;
 use super::error::Error;
 use super::sys::{self, Abi, FunctionTable, QueryFunctionTable};
 
-const LIBRARY: &str = if cfg!(windows) {
-    "nvoptix.dll"
-} else {
-    "libnvoptix.so.1"
-};
+const LIBRARY: &str = if cfg!(windows) { "nvoptix.dll" } else { "libnvoptix.so.1" };
 
 /// The driver's functions and the ABI version they follow.
 #[derive(Clone, Copy)]
@@ -43,22 +39,16 @@ fn load(library: &'static str) -> Result<Api, Error> {
     // SAFETY: loading the NVIDIA driver's library runs its initialisers, which need nothing from us.
     let library = unsafe { Library::new(library) }.map_err(not_found)?;
     // SAFETY: the driver exports this function with this signature (guide §3.6).
-    let query = *unsafe { library.get::<QueryFunctionTable>(b"optixQueryFunctionTable\0") }
-        .map_err(not_found)?;
+    let query = *unsafe { library.get::<QueryFunctionTable>(b"optixQueryFunctionTable\0") }.map_err(not_found)?;
     // Never unloaded, so `query` and the table stay valid.
     std::mem::forget(library);
     // SAFETY: `query` is the driver's function of that name.
-    let (table, abi) =
-        unsafe { sys::negotiate(query) }.map_err(|result| Error::UnsupportedDriver {
-            known: sys::ABIS.iter().map(|abi| abi.version).collect(),
-            code: result.0,
-            driver: cuda::display_driver_version().unwrap_or_else(|| "unknown".into()),
-            needed: sys::ABIS
-                .iter()
-                .map(|abi| abi.driver_branch)
-                .min()
-                .unwrap_or_default(),
-        })?;
+    let (table, abi) = unsafe { sys::negotiate(query) }.map_err(|result| Error::UnsupportedDriver {
+        known: sys::ABIS.iter().map(|abi| abi.version).collect(),
+        code: result.0,
+        driver: cuda::display_driver_version().unwrap_or_else(|| "unknown".into()),
+        needed: sys::ABIS.iter().map(|abi| abi.driver_branch).min().unwrap_or_default(),
+    })?;
     Ok(Api { table, abi })
 }
 
@@ -81,11 +71,7 @@ mod tests {
     #[test]
     fn a_missing_library_is_named_with_what_to_do() {
         let text = load("libnvoptix-missing.so.1").err().unwrap().to_string();
-        for part in [
-            "libnvoptix-missing.so.1: cannot open",
-            "NVIDIA driver",
-            "NVIDIA_DRIVER_CAPABILITIES=graphics",
-        ] {
+        for part in ["libnvoptix-missing.so.1: cannot open", "NVIDIA driver", "NVIDIA_DRIVER_CAPABILITIES=graphics"] {
             assert!(text.contains(part), "{part} is missing in: {text}");
         }
     }

@@ -34,11 +34,7 @@ impl Limits {
     /// Asks `get` for each; an older ABI refuses properties it does not know.
     pub(super) fn query(abi: i32, get: impl Fn(P) -> Result<u32, Error>) -> Result<Self, Error> {
         let since = |first: i32, property: P| {
-            if abi >= first {
-                get(property).map(|value| value != 0)
-            } else {
-                Ok(false)
-            }
+            if abi >= first { get(property).map(|value| value != 0) } else { Ok(false) }
         };
         Ok(Self {
             max_trace_depth: get(P::LIMIT_MAX_TRACE_DEPTH)?,
@@ -64,18 +60,11 @@ mod tests {
     fn an_older_abi_is_not_asked_for_newer_properties() {
         let answer = |newest: u32| {
             move |property: P| {
-                if property.0 <= newest {
-                    Ok(property.0)
-                } else {
-                    Err(Error::invalid("", "", ""))
-                }
+                if property.0 <= newest { Ok(property.0) } else { Err(Error::invalid("", "", "")) }
             }
         };
         let limits = Limits::query(84, answer(8201)).unwrap();
-        assert_eq!(
-            (limits.max_trace_depth, limits.max_sbt_offset),
-            (8193, 8201)
-        );
+        assert_eq!((limits.max_trace_depth, limits.max_sbt_offset), (8193, 8201));
         assert!(!limits.reordering && !limits.clusters);
         assert!(Limits::query(93, answer(8202)).unwrap().reordering);
         assert!(Limits::query(105, answer(8224)).unwrap().clusters);

@@ -95,21 +95,12 @@ impl LogSink {
 ///
 /// # Safety
 /// `tag` and `text` are null or NUL-terminated, `data` is the address of a live [`LogSink`].
-pub(super) unsafe extern "C" fn receive(
-    level: u32,
-    tag: *const c_char,
-    text: *const c_char,
-    data: *mut c_void,
-) {
+pub(super) unsafe extern "C" fn receive(level: u32, tag: *const c_char, text: *const c_char, data: *mut c_void) {
     // SAFETY: the context that registered this callback keeps the sink alive until it is destroyed.
     let sink = unsafe { &*data.cast::<LogSink>() };
     // SAFETY: the driver passes NUL-terminated strings (A030).
     let (tag, text) = unsafe { (lossy(tag), lossy(text)) };
-    sink.push(LogMessage {
-        level,
-        tag,
-        text: text.trim_end().to_owned(),
-    });
+    sink.push(LogMessage { level, tag, text: text.trim_end().to_owned() });
 }
 
 /// # Safety
@@ -119,9 +110,7 @@ unsafe fn lossy(text: *const c_char) -> String {
         return String::new();
     }
     // SAFETY: not null, and NUL-terminated as the caller promises.
-    unsafe { CStr::from_ptr(text) }
-        .to_string_lossy()
-        .into_owned()
+    unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
 }
 
 #[cfg(test)]
@@ -139,23 +128,10 @@ mod tests {
         // SAFETY: null strings are allowed.
         unsafe { receive(3, std::ptr::null(), std::ptr::null(), data) };
         let unreported = sink.take_unreported();
-        assert_eq!(
-            unreported,
-            [LogMessage {
-                level: 2,
-                tag: "TAG".into(),
-                text: "text".into()
-            }]
-        );
+        assert_eq!(unreported, [LogMessage { level: 2, tag: "TAG".into(), text: "text".into() }]);
         assert!(sink.take_unreported().is_empty());
         assert_eq!(sink.messages().len(), 3);
-        assert_eq!(
-            sink.take_messages()
-                .iter()
-                .filter(|m| m.is_complaint())
-                .count(),
-            2
-        );
+        assert_eq!(sink.take_messages().iter().filter(|m| m.is_complaint()).count(), 2);
         assert!(sink.messages().is_empty());
     }
 
@@ -163,16 +139,9 @@ mod tests {
     fn the_newest_messages_are_kept() {
         let sink = LogSink::default();
         for i in 0..CAPACITY + 10 {
-            sink.push(LogMessage {
-                level: 4,
-                tag: String::new(),
-                text: i.to_string(),
-            });
+            sink.push(LogMessage { level: 4, tag: String::new(), text: i.to_string() });
         }
         let messages = sink.messages();
-        assert_eq!(
-            (messages.len(), messages[0].text.as_str()),
-            (CAPACITY, "10")
-        );
+        assert_eq!((messages.len(), messages[0].text.as_str()), (CAPACITY, "10"));
     }
 }

@@ -118,18 +118,8 @@ impl Module {
         Ok(module)
     }
 
-    fn own(
-        context: &Context,
-        raw: sys::OptixModule,
-        pipeline: &PipelineOptions,
-        log: String,
-    ) -> Self {
-        Self(Arc::new(Inner {
-            raw,
-            options: pipeline.clone(),
-            log,
-            context: context.clone(),
-        }))
+    fn own(context: &Context, raw: sys::OptixModule, pipeline: &PipelineOptions, log: String) -> Self {
+        Self(Arc::new(Inner { raw, options: pipeline.clone(), log, context: context.clone() }))
     }
 
     /// What the compiler wrote: warnings, and at log level 4 its feedback. Empty when the module came from the cache.
@@ -170,11 +160,7 @@ fn check_ptx(ptx: &str) -> Result<(), Error> {
         return Err(Error::invalid(WHAT, "the text is empty", REMEDY));
     }
     match ptx.bytes().position(|byte| byte == 0) {
-        Some(at) => Err(Error::invalid(
-            WHAT,
-            format!("the text has a NUL at byte {at} of {}", ptx.len()),
-            REMEDY,
-        )),
+        Some(at) => Err(Error::invalid(WHAT, format!("the text has a NUL at byte {at} of {}", ptx.len()), REMEDY)),
         None => Ok(()),
     }
 }
@@ -185,12 +171,7 @@ mod tests {
 
     #[test]
     fn ptx_with_a_nul_is_refused_with_its_place() {
-        assert!(
-            check_ptx(".version 7.8\0")
-                .unwrap_err()
-                .to_string()
-                .contains("byte 12 of 13")
-        );
+        assert!(check_ptx(".version 7.8\0").unwrap_err().to_string().contains("byte 12 of 13"));
         assert!(check_ptx(" \n").is_err());
         assert!(check_ptx(".version 7.8").is_ok());
     }

@@ -73,20 +73,12 @@ impl ModuleOptions {
         const WHAT: &str = "module options";
         if i32::try_from(self.max_registers).is_err() {
             let problem = format!("max_registers is {}", self.max_registers);
-            return Err(Error::invalid(
-                WHAT,
-                problem,
-                "a thread has at most 255 registers; 0 sets no limit",
-            ));
+            return Err(Error::invalid(WHAT, problem, "a thread has at most 255 registers; 0 sets no limit"));
         }
         self.check_payload_types(pipeline)?;
         if !self.bound_values.is_empty() && pipeline.launch_params.is_none() {
             let problem = "values are bound, but the pipeline has no launch parameters";
-            return Err(Error::invalid(
-                WHAT,
-                problem,
-                "name the launch-parameter variable in the pipeline options",
-            ));
+            return Err(Error::invalid(WHAT, problem, "name the launch-parameter variable in the pipeline options"));
         }
         let mut ranges = Vec::with_capacity(self.bound_values.len());
         for value in &self.bound_values {
@@ -94,16 +86,8 @@ impl ModuleOptions {
             match value.offset.checked_add(value.bytes.len()) {
                 Some(end) if end > value.offset => ranges.push((value.offset, end, name)),
                 _ => {
-                    let problem = format!(
-                        "bound value {name:?}: {} bytes at {}",
-                        value.bytes.len(),
-                        value.offset
-                    );
-                    return Err(Error::invalid(
-                        WHAT,
-                        problem,
-                        "bind at least one byte, inside the launch parameters",
-                    ));
+                    let problem = format!("bound value {name:?}: {} bytes at {}", value.bytes.len(), value.offset);
+                    return Err(Error::invalid(WHAT, problem, "bind at least one byte, inside the launch parameters"));
                 }
             }
         }
@@ -111,11 +95,7 @@ impl ModuleOptions {
         for pair in ranges.windows(2) {
             if pair[1].0 < pair[0].1 {
                 let problem = format!("bound values {:?} and {:?} overlap", pair[0].2, pair[1].2);
-                return Err(Error::invalid(
-                    WHAT,
-                    problem,
-                    "bind each byte of the launch parameters once (C042)",
-                ));
+                return Err(Error::invalid(WHAT, problem, "bind each byte of the launch parameters once (C042)"));
             }
         }
         Ok(())
@@ -125,26 +105,12 @@ impl ModuleOptions {
         const WHAT: &str = "payload types";
         let max = sys::OPTIX_COMPILE_DEFAULT_MAX_PAYLOAD_TYPE_COUNT;
         if self.payload_types.len() > max {
-            let problem = format!(
-                "{} types in one module, more than {max}",
-                self.payload_types.len()
-            );
-            return Err(Error::invalid(
-                WHAT,
-                problem,
-                "spread the ray types over several modules (H014)",
-            ));
+            let problem = format!("{} types in one module, more than {max}", self.payload_types.len());
+            return Err(Error::invalid(WHAT, problem, "spread the ray types over several modules (H014)"));
         }
         if !self.payload_types.is_empty() && pipeline.payload_values != 0 {
-            let problem = format!(
-                "the pipeline has {} untyped payload words as well",
-                pipeline.payload_values
-            );
-            return Err(Error::invalid(
-                WHAT,
-                problem,
-                "set payload_values to 0 where payload types are used (H011)",
-            ));
+            let problem = format!("the pipeline has {} untyped payload words as well", pipeline.payload_values);
+            return Err(Error::invalid(WHAT, problem, "set payload_values to 0 where payload types are used (H011)"));
         }
         self.payload_types.iter().try_for_each(PayloadType::check)
     }
@@ -166,29 +132,19 @@ impl<'a> RawModuleOptions<'a> {
             .map(|value| {
                 CString::new(value.annotation.as_str()).map_err(|_| {
                     let problem = format!("{:?} has a NUL in it", value.annotation);
-                    Error::invalid(
-                        "the annotation of a bound value",
-                        problem,
-                        "use the field's name",
-                    )
+                    Error::invalid("the annotation of a bound value", problem, "use the field's name")
                 })
             })
             .collect::<Result<Vec<_>, _>>()?;
-        let entry =
-            |(value, annotation): (&BoundValue, &CString)| sys::OptixModuleCompileBoundValueEntry {
-                pipeline_param_offset_in_bytes: value.offset,
-                size_in_bytes: value.bytes.len(),
-                bound_value_ptr: value.bytes.as_ptr().cast(),
-                annotation: annotation.as_ptr(),
-            };
+        let entry = |(value, annotation): (&BoundValue, &CString)| sys::OptixModuleCompileBoundValueEntry {
+            pipeline_param_offset_in_bytes: value.offset,
+            size_in_bytes: value.bytes.len(),
+            bound_value_ptr: value.bytes.as_ptr().cast(),
+            annotation: annotation.as_ptr(),
+        };
         Ok(Self {
             payload_types: options.payload_types.iter().map(PayloadType::raw).collect(),
-            bound_values: options
-                .bound_values
-                .iter()
-                .zip(&annotations)
-                .map(entry)
-                .collect(),
+            bound_values: options.bound_values.iter().zip(&annotations).map(entry).collect(),
             _annotations: annotations,
             options,
         })
@@ -223,11 +179,7 @@ impl<'a> RawModuleOptions<'a> {
 
 /// The address of the first element, null without one.
 pub(super) fn or_null<T>(slice: &[T]) -> *const T {
-    if slice.is_empty() {
-        std::ptr::null()
-    } else {
-        slice.as_ptr()
-    }
+    if slice.is_empty() { std::ptr::null() } else { slice.as_ptr() }
 }
 
 #[cfg(test)]
@@ -236,59 +188,31 @@ mod tests {
     use super::*;
 
     fn bound(offset: usize, len: usize) -> BoundValue {
-        BoundValue {
-            offset,
-            bytes: vec![0; len],
-            annotation: format!("at {offset}"),
-        }
+        BoundValue { offset, bytes: vec![0; len], annotation: format!("at {offset}") }
     }
 
     fn check(bound_values: Vec<BoundValue>) -> Result<(), Error> {
-        let pipeline = PipelineOptions {
-            launch_params: Some("params".into()),
-            ..Default::default()
-        };
-        ModuleOptions {
-            bound_values,
-            ..Default::default()
-        }
-        .check(&pipeline)
+        let pipeline = PipelineOptions { launch_params: Some("params".into()), ..Default::default() };
+        ModuleOptions { bound_values, ..Default::default() }.check(&pipeline)
     }
 
     #[test]
     fn bound_values_may_touch_but_not_overlap() {
         assert!(check(vec![bound(4, 4), bound(0, 4), bound(8, 1)]).is_ok());
-        assert!(
-            check(vec![bound(4, 4), bound(0, 5)])
-                .unwrap_err()
-                .to_string()
-                .contains("overlap")
-        );
+        assert!(check(vec![bound(4, 4), bound(0, 5)]).unwrap_err().to_string().contains("overlap"));
         assert!(check(vec![bound(0, 8), bound(0, 8)]).is_err());
         assert!(check(vec![bound(0, 0)]).is_err());
         assert!(check(vec![bound(usize::MAX, 2)]).is_err());
-        let options = ModuleOptions {
-            bound_values: vec![bound(0, 4)],
-            ..Default::default()
-        };
+        let options = ModuleOptions { bound_values: vec![bound(0, 4)], ..Default::default() };
         assert!(options.check(&PipelineOptions::default()).is_err());
     }
 
     #[test]
     fn payload_types_keep_their_limits() {
-        let words = |words| PayloadType {
-            semantics: vec![PayloadSemantics::CALLER_READ; words],
-        };
+        let words = |words| PayloadType { semantics: vec![PayloadSemantics::CALLER_READ; words] };
         let check = |types: Vec<PayloadType>, payload_values| {
-            let pipeline = PipelineOptions {
-                payload_values,
-                ..Default::default()
-            };
-            ModuleOptions {
-                payload_types: types,
-                ..Default::default()
-            }
-            .check(&pipeline)
+            let pipeline = PipelineOptions { payload_values, ..Default::default() };
+            ModuleOptions { payload_types: types, ..Default::default() }.check(&pipeline)
         };
         assert!(check(vec![words(32); 8], 0).is_ok());
         assert!(check(vec![words(33)], 0).is_err());
@@ -300,9 +224,7 @@ mod tests {
     fn raw_options_point_at_the_values() {
         let options = ModuleOptions {
             bound_values: vec![bound(8, 4)],
-            payload_types: vec![PayloadType {
-                semantics: vec![PayloadSemantics::CALLER_WRITE; 3],
-            }],
+            payload_types: vec![PayloadType { semantics: vec![PayloadSemantics::CALLER_WRITE; 3] }],
             ..Default::default()
         };
         let raw = RawModuleOptions::new(&options).unwrap();
@@ -310,10 +232,7 @@ mod tests {
         assert_eq!((c.num_bound_values, c.num_payload_types), (1, 1));
         // SAFETY: the pointers lead to `raw` and `options`, which are alive.
         let (entry, payload) = unsafe { (&*c.bound_values, &*c.payload_types) };
-        assert_eq!(
-            (entry.pipeline_param_offset_in_bytes, entry.size_in_bytes),
-            (8, 4)
-        );
+        assert_eq!((entry.pipeline_param_offset_in_bytes, entry.size_in_bytes), (8, 4));
         // SAFETY: as above; the payload has three words.
         let words = unsafe { std::slice::from_raw_parts(payload.payload_semantics, 3) };
         assert_eq!(words, [2, 2, 2]);

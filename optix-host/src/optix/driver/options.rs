@@ -83,14 +83,10 @@ pub struct Exceptions {
 impl Exceptions {
     fn flags(self) -> u32 {
         use sys::OptixExceptionFlags as Flags;
-        [
-            (self.stack_overflow, Flags::STACK_OVERFLOW),
-            (self.trace_depth, Flags::TRACE_DEPTH),
-            (self.user, Flags::USER),
-        ]
-        .into_iter()
-        .filter(|(on, _)| *on)
-        .fold(0, |bits, (_, flag)| bits | flag.0)
+        [(self.stack_overflow, Flags::STACK_OVERFLOW), (self.trace_depth, Flags::TRACE_DEPTH), (self.user, Flags::USER)]
+            .into_iter()
+            .filter(|(on, _)| *on)
+            .fold(0, |bits, (_, flag)| bits | flag.0)
     }
 }
 
@@ -130,77 +126,40 @@ impl PipelineOptions {
         const WHAT: &str = "pipeline options";
         let max_payload = sys::OPTIX_COMPILE_DEFAULT_MAX_PAYLOAD_VALUE_COUNT as u32;
         if self.payload_values > max_payload {
-            let problem = format!(
-                "{} payload words, more than {max_payload}",
-                self.payload_values
-            );
-            return Err(Error::invalid(
-                WHAT,
-                problem,
-                "move state behind a pointer that two payload words carry",
-            ));
+            let problem = format!("{} payload words, more than {max_payload}", self.payload_values);
+            return Err(Error::invalid(WHAT, problem, "move state behind a pointer that two payload words carry"));
         }
         if self.attribute_values > MAX_ATTRIBUTE_VALUES {
-            let problem = format!(
-                "{} attribute words, more than {MAX_ATTRIBUTE_VALUES}",
-                self.attribute_values
-            );
-            return Err(Error::invalid(
-                WHAT,
-                problem,
-                "compute the rest of the attributes in the hit programs",
-            ));
+            let problem = format!("{} attribute words, more than {MAX_ATTRIBUTE_VALUES}", self.attribute_values);
+            return Err(Error::invalid(WHAT, problem, "compute the rest of the attributes in the hit programs"));
         }
         if self.primitives.0 & ROCAPS != 0 && context.abi_version() < 105 {
-            let problem = format!(
-                "ROCAPS curves need OptiX 9.0, the driver serves {}",
-                context.optix_release()
-            );
-            return Err(Error::invalid(
-                WHAT,
-                problem,
-                "install driver 570 or newer, or use the curves without ROCAPS",
-            ));
+            let problem = format!("ROCAPS curves need OptiX 9.0, the driver serves {}", context.optix_release());
+            return Err(Error::invalid(WHAT, problem, "install driver 570 or newer, or use the curves without ROCAPS"));
         }
-        let symbol = self
-            .launch_params
-            .as_deref()
-            .map(|name| c_name(WHAT, name))
-            .transpose()?;
+        let symbol = self.launch_params.as_deref().map(|name| c_name(WHAT, name)).transpose()?;
         let options = sys::OptixPipelineCompileOptions {
             uses_motion_blur: self.motion_blur.into(),
             traversable_graph_flags: self.graph.flags(),
             num_payload_values: self.payload_values as i32,
             num_attribute_values: self.attribute_values as i32,
             exception_flags: self.exceptions.flags(),
-            pipeline_launch_params_variable_name: symbol
-                .as_ref()
-                .map_or(std::ptr::null(), |name| name.as_ptr()),
+            pipeline_launch_params_variable_name: symbol.as_ref().map_or(std::ptr::null(), |name| name.as_ptr()),
             uses_primitive_type_flags: self.primitives.0,
             allow_opacity_micromaps: self.opacity_micromaps.into(),
             allow_clustered_geometry: 0,
         };
-        Ok(RawOptions {
-            options,
-            _symbol: symbol,
-        })
+        Ok(RawOptions { options, _symbol: symbol })
     }
 }
 
 /// A name as a C string.
 pub(super) fn c_name(what: &'static str, name: &str) -> Result<CString, Error> {
     if name.is_empty() {
-        return Err(Error::invalid(
-            what,
-            "a name is empty",
-            "give the name that the PTX has",
-        ));
+        return Err(Error::invalid(what, "a name is empty", "give the name that the PTX has"));
     }
     CString::new(name).map_err(|error| {
-        let problem = format!(
-            "the name {name:?} has a NUL at byte {}",
-            error.nul_position()
-        );
+        let problem = format!("the name {name:?} has a NUL at byte {}", error.nul_position());
         Error::invalid(what, problem, "give the name that the PTX has")
     })
 }
@@ -211,23 +170,9 @@ mod tests {
 
     #[test]
     fn sets_become_bits() {
-        assert_eq!(
-            PrimitiveKinds::TRIANGLE.with(PrimitiveKinds::CUSTOM).0,
-            0x8000_0001
-        );
-        assert_eq!(
-            Exceptions {
-                stack_overflow: true,
-                trace_depth: false,
-                user: true
-            }
-            .flags(),
-            5
-        );
-        assert_eq!(
-            TraversableGraph::SingleGasOrSingleLevelInstancing.flags(),
-            3
-        );
+        assert_eq!(PrimitiveKinds::TRIANGLE.with(PrimitiveKinds::CUSTOM).0, 0x8000_0001);
+        assert_eq!(Exceptions { stack_overflow: true, trace_depth: false, user: true }.flags(), 5);
+        assert_eq!(TraversableGraph::SingleGasOrSingleLevelInstancing.flags(), 3);
         assert_eq!(TraversableGraph::default().flags(), 0);
     }
 
@@ -235,11 +180,6 @@ mod tests {
     fn names_are_checked() {
         assert!(c_name("a test", "params").is_ok());
         assert!(c_name("a test", "").is_err());
-        assert!(
-            c_name("a test", "a\0b")
-                .unwrap_err()
-                .to_string()
-                .contains("byte 1")
-        );
+        assert!(c_name("a test", "a\0b").unwrap_err().to_string().contains("byte 1"));
     }
 }

@@ -56,19 +56,12 @@ impl PayloadSemantics {
 
 impl PayloadType {
     pub(super) fn check(&self) -> Result<(), Error> {
-        let (words, max) = (
-            self.semantics.len(),
-            sys::OPTIX_COMPILE_DEFAULT_MAX_PAYLOAD_VALUE_COUNT,
-        );
+        let (words, max) = (self.semantics.len(), sys::OPTIX_COMPILE_DEFAULT_MAX_PAYLOAD_VALUE_COUNT);
         if words <= max {
             return Ok(());
         }
         let remedy = "move state behind a pointer that two payload words carry";
-        Err(Error::invalid(
-            "a payload type",
-            format!("{words} words, more than {max}"),
-            remedy,
-        ))
+        Err(Error::invalid("a payload type", format!("{words} words, more than {max}"), remedy))
     }
 
     /// Points into `self`.

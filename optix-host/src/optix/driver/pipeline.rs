@@ -54,14 +54,11 @@ impl Pipeline {
     ) -> Result<Self, Error> {
         check_groups(context, groups, options)?;
         link.check(context, options)?;
-        let count = u32::try_from(groups.len()).map_err(|_| {
-            Error::invalid("a pipeline", "more than 2^32 groups", "link fewer groups")
-        })?;
+        let count = u32::try_from(groups.len())
+            .map_err(|_| Error::invalid("a pipeline", "more than 2^32 groups", "link fewer groups"))?;
         let raw_groups: Vec<_> = groups.iter().map(ProgramGroup::raw).collect();
         let raw_options = options.raw(context)?;
-        let link_options = sys::OptixPipelineLinkOptions {
-            max_trace_depth: link.depths.trace,
-        };
+        let link_options = sys::OptixPipelineLinkOptions { max_trace_depth: link.depths.trace };
         let mut log = CompileLog::new();
         let mut raw = sys::OptixPipeline::NULL;
         let _current = context.enter()?;
@@ -71,16 +68,7 @@ impl Pipeline {
         let result = unsafe {
             let (options, groups) = (&raw_options.options, or_null(&raw_groups));
             let table = context.table();
-            table.pipeline_create(
-                context.raw(),
-                options,
-                &link_options,
-                groups,
-                count,
-                log_text,
-                log_size,
-                &mut raw,
-            )
+            table.pipeline_create(context.raw(), options, &link_options, groups, count, log_text, log_size, &mut raw)
         };
         context.check_compile("optixPipelineCreate", result, &log)?;
         // From here on dropping `inner` destroys the pipeline.
@@ -93,14 +81,9 @@ impl Pipeline {
             _groups: groups.to_vec(),
             context: context.clone(),
         };
-        let stacks = groups
-            .iter()
-            .map(|group| group.stack(raw))
-            .collect::<Result<Vec<_>, _>>()?;
+        let stacks = groups.iter().map(|group| group.stack(raw)).collect::<Result<Vec<_>, _>>()?;
         inner.groups_stack = stacks.into_iter().collect();
-        inner.stack = link
-            .stack
-            .unwrap_or_else(|| stack::compute(inner.groups_stack, link.depths));
+        inner.stack = link.stack.unwrap_or_else(|| stack::compute(inner.groups_stack, link.depths));
         inner.set_stack(link.max_graph_depth)?;
         Ok(Self(Arc::new(inner)))
     }
@@ -136,11 +119,7 @@ impl Pipeline {
 
 impl Inner {
     fn set_stack(&self, max_graph_depth: u32) -> Result<(), Error> {
-        let StackSizes {
-            direct_from_traversal,
-            direct_from_state,
-            continuation,
-        } = self.stack;
+        let StackSizes { direct_from_traversal, direct_from_state, continuation } = self.stack;
         // SAFETY: the pipeline is live and not yet launched.
         let result = unsafe {
             let table = self.context.table();
@@ -173,21 +152,11 @@ impl LinkOptions {
         let (trace, max_trace) = (self.depths.trace, context.limits().max_trace_depth);
         if trace > max_trace {
             let problem = format!("trace depth {trace}, more than {max_trace}");
-            return Err(Error::invalid(
-                WHAT,
-                problem,
-                "turn recursion into a loop in the ray-generation program",
-            ));
+            return Err(Error::invalid(WHAT, problem, "turn recursion into a loop in the ray-generation program"));
         }
-        let limit = options
-            .graph
-            .max_depth()
-            .unwrap_or(context.limits().max_graph_depth);
+        let limit = options.graph.max_depth().unwrap_or(context.limits().max_graph_depth);
         if self.max_graph_depth == 0 || self.max_graph_depth > limit {
-            let problem = format!(
-                "traversable graph depth {}, not within 1 to {limit}",
-                self.max_graph_depth
-            );
+            let problem = format!("traversable graph depth {}, not within 1 to {limit}", self.max_graph_depth);
             return Err(Error::invalid(
                 WHAT,
                 problem,
@@ -198,22 +167,12 @@ impl LinkOptions {
     }
 }
 
-fn check_groups(
-    context: &Context,
-    groups: &[ProgramGroup],
-    options: &PipelineOptions,
-) -> Result<(), Error> {
+fn check_groups(context: &Context, groups: &[ProgramGroup], options: &PipelineOptions) -> Result<(), Error> {
     for group in groups {
         context.owns("a pipeline", group.context())?;
-        if let Some(module) = group
-            .modules()
-            .iter()
-            .find(|module| module.pipeline_options() != options)
-        {
-            let problem = format!(
-                "a module was compiled with {:?}, the pipeline has {options:?}",
-                module.pipeline_options()
-            );
+        if let Some(module) = group.modules().iter().find(|module| module.pipeline_options() != options) {
+            let problem =
+                format!("a module was compiled with {:?}, the pipeline has {options:?}", module.pipeline_options());
             return Err(Error::invalid(
                 "a pipeline",
                 problem,

@@ -76,25 +76,15 @@ impl ProgramGroup {
     /// # Errors
     /// [`Error::Invalid`] for a name without the prefix of its kind, modules of another context and callables without a
     /// callable; [`Error::Optix`] with the log otherwise.
-    pub fn new(
-        context: &Context,
-        programs: &Programs<'_>,
-        payload: Option<&PayloadType>,
-    ) -> Result<Self, Error> {
-        let mut builder = Builder {
-            context,
-            names: Vec::new(),
-            modules: Vec::new(),
-        };
+    pub fn new(context: &Context, programs: &Programs<'_>, payload: Option<&PayloadType>) -> Result<Self, Error> {
+        let mut builder = Builder { context, names: Vec::new(), modules: Vec::new() };
         let description = builder.describe(programs)?;
         if let Some(payload) = payload {
             payload.check()?;
         }
         let payload = payload.map(PayloadType::raw);
         let options = sys::OptixProgramGroupOptions {
-            payload_type: payload
-                .as_ref()
-                .map_or(ptr::null(), |payload| &raw const *payload),
+            payload_type: payload.as_ref().map_or(ptr::null(), |payload| &raw const *payload),
         };
         let mut log = CompileLog::new();
         let mut raw = sys::OptixProgramGroup::NULL;
@@ -104,22 +94,10 @@ impl ProgramGroup {
         // this block; the log buffer is as long as its size says.
         let result = unsafe {
             let table = context.table();
-            table.program_group_create(
-                context.raw(),
-                &description,
-                1,
-                &options,
-                log_text,
-                log_size,
-                &mut raw,
-            )
+            table.program_group_create(context.raw(), &description, 1, &options, log_text, log_size, &mut raw)
         };
         context.check_compile("optixProgramGroupCreate", result, &log)?;
-        Ok(Self(Arc::new(Inner {
-            raw,
-            modules: builder.modules,
-            context: context.clone(),
-        })))
+        Ok(Self(Arc::new(Inner { raw, modules: builder.modules, context: context.clone() })))
     }
 
     /// Writes the header of a record that runs this group (guide §7.1). The bytes may be copied and used for any number
@@ -127,18 +105,11 @@ impl ProgramGroup {
     ///
     /// # Errors
     /// [`Error::Optix`].
-    pub fn pack_header(
-        &self,
-        header: &mut [u8; sys::OPTIX_SBT_RECORD_HEADER_SIZE],
-    ) -> Result<(), Error> {
+    pub fn pack_header(&self, header: &mut [u8; sys::OPTIX_SBT_RECORD_HEADER_SIZE]) -> Result<(), Error> {
         let context = &self.0.context;
         let _current = context.enter()?;
         // SAFETY: the group is live and the header has the 32 bytes that are written.
-        let result = unsafe {
-            context
-                .table()
-                .sbt_record_pack_header(self.0.raw, header.as_mut_ptr().cast())
-        };
+        let result = unsafe { context.table().sbt_record_pack_header(self.0.raw, header.as_mut_ptr().cast()) };
         context.check("optixSbtRecordPackHeader", result)
     }
 
@@ -147,11 +118,7 @@ impl ProgramGroup {
         let context = &self.0.context;
         let mut sizes = sys::OptixStackSizes::default();
         // SAFETY: the group and the pipeline are live, and `sizes` is valid for a write.
-        let result = unsafe {
-            context
-                .table()
-                .program_group_get_stack_size(self.0.raw, &mut sizes, pipeline)
-        };
+        let result = unsafe { context.table().program_group_get_stack_size(self.0.raw, &mut sizes, pipeline) };
         context.check("optixProgramGroupGetStackSize", result)?;
         Ok(GroupStack {
             css_rg: sizes.css_rg,
@@ -200,22 +167,13 @@ impl Builder<'_> {
         let (kind, programs) = match *programs {
             Programs::Raygen(entry) => (Kind::RAYGEN, self.single("__raygen__", Some(entry))?),
             Programs::Miss(entry) => (Kind::MISS, self.single("__miss__", entry)?),
-            Programs::Exception(entry) => {
-                (Kind::EXCEPTION, self.single("__exception__", Some(entry))?)
-            }
-            Programs::HitGroup {
-                closesthit,
-                anyhit,
-                intersection,
-            } => {
-                let (module_ch, entry_function_name_ch) =
-                    self.entry("__closesthit__", closesthit)?;
+            Programs::Exception(entry) => (Kind::EXCEPTION, self.single("__exception__", Some(entry))?),
+            Programs::HitGroup { closesthit, anyhit, intersection } => {
+                let (module_ch, entry_function_name_ch) = self.entry("__closesthit__", closesthit)?;
                 let (module_ah, entry_function_name_ah) = self.entry("__anyhit__", anyhit)?;
                 let (module_is, entry_function_name_is) = match intersection {
                     Some(Intersection::Builtin(module)) => (self.module(module)?, ptr::null()),
-                    Some(Intersection::Program(entry)) => {
-                        self.entry("__intersection__", Some(entry))?
-                    }
+                    Some(Intersection::Program(entry)) => self.entry("__intersection__", Some(entry))?,
                     None => self.entry("__intersection__", None)?,
                 };
                 let hitgroup = sys::OptixProgramGroupHitgroup {
@@ -228,25 +186,13 @@ impl Builder<'_> {
                 };
                 (Kind::HITGROUP, Union { hitgroup })
             }
-            Programs::Callables {
-                direct: None,
-                continuation: None,
-            } => {
+            Programs::Callables { direct: None, continuation: None } => {
                 let remedy = "name a direct callable, a continuation callable, or both";
-                return Err(Error::invalid(
-                    "a callables group",
-                    "it has no callable",
-                    remedy,
-                ));
+                return Err(Error::invalid("a callables group", "it has no callable", remedy));
             }
-            Programs::Callables {
-                direct,
-                continuation,
-            } => {
-                let (module_dc, entry_function_name_dc) =
-                    self.entry("__direct_callable__", direct)?;
-                let (module_cc, entry_function_name_cc) =
-                    self.entry("__continuation_callable__", continuation)?;
+            Programs::Callables { direct, continuation } => {
+                let (module_dc, entry_function_name_dc) = self.entry("__direct_callable__", direct)?;
+                let (module_cc, entry_function_name_cc) = self.entry("__continuation_callable__", continuation)?;
                 let callables = sys::OptixProgramGroupCallables {
                     module_dc,
                     entry_function_name_dc,
@@ -256,35 +202,18 @@ impl Builder<'_> {
                 (Kind::CALLABLES, Union { callables })
             }
         };
-        Ok(sys::OptixProgramGroupDesc {
-            kind,
-            flags: 0,
-            programs,
-        })
+        Ok(sys::OptixProgramGroupDesc { kind, flags: 0, programs })
     }
 
-    fn single(
-        &mut self,
-        prefix: &str,
-        entry: Option<Entry<'_>>,
-    ) -> Result<sys::OptixProgramGroupPrograms, Error> {
+    fn single(&mut self, prefix: &str, entry: Option<Entry<'_>>) -> Result<sys::OptixProgramGroupPrograms, Error> {
         let (module, entry_function_name) = self.entry(prefix, entry)?;
         // All bytes of the union are zero before one member is set, since the driver may look at the whole of it.
-        let mut programs = sys::OptixProgramGroupPrograms {
-            hitgroup: Default::default(),
-        };
-        programs.single = sys::OptixProgramGroupSingleModule {
-            module,
-            entry_function_name,
-        };
+        let mut programs = sys::OptixProgramGroupPrograms { hitgroup: Default::default() };
+        programs.single = sys::OptixProgramGroupSingleModule { module, entry_function_name };
         Ok(programs)
     }
 
-    fn entry(
-        &mut self,
-        prefix: &str,
-        entry: Option<Entry<'_>>,
-    ) -> Result<(sys::OptixModule, *const c_char), Error> {
+    fn entry(&mut self, prefix: &str, entry: Option<Entry<'_>>) -> Result<(sys::OptixModule, *const c_char), Error> {
         let Some(Entry { module, name }) = entry else {
             return Ok((sys::OptixModule::NULL, ptr::null()));
         };
@@ -321,12 +250,7 @@ mod tests {
     #[test]
     fn a_name_must_have_the_prefix_of_its_kind() {
         assert!(check_prefix("__miss__", "__miss__sky").is_ok());
-        let text = check_prefix("__miss__", "__raygen__camera")
-            .unwrap_err()
-            .to_string();
-        assert!(
-            text.contains("__raygen__camera") && text.contains("__miss__"),
-            "{text}"
-        );
+        let text = check_prefix("__miss__", "__raygen__camera").unwrap_err().to_string();
+        assert!(text.contains("__raygen__camera") && text.contains("__miss__"), "{text}");
     }
 }

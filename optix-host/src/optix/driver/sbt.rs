@@ -48,9 +48,7 @@ struct Inner {
 
 impl fmt::Debug for ShaderBindingTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ShaderBindingTable")
-            .field("raw", &self.0.raw)
-            .finish_non_exhaustive()
+        f.debug_struct("ShaderBindingTable").field("raw", &self.0.raw).finish_non_exhaustive()
     }
 }
 
@@ -61,20 +59,10 @@ impl ShaderBindingTable {
     /// # Errors
     /// [`Error::Invalid`] for a stride that is no multiple of 16 or shorter than a header, for a section that is not
     /// whole records, and without a ray-generation record.
-    pub fn new(
-        context: &Context,
-        sections: &SbtSections<'_>,
-        keep: KeepAlive,
-    ) -> Result<Self, Error> {
+    pub fn new(context: &Context, sections: &SbtSections<'_>, keep: KeepAlive) -> Result<Self, Error> {
         let layout = Layout::new(sections)?;
         let mut bytes = vec![0u8; layout.size];
-        let all = [
-            sections.raygen,
-            sections.exception,
-            sections.miss,
-            sections.hitgroup,
-            sections.callables,
-        ];
+        let all = [sections.raygen, sections.exception, sections.miss, sections.hitgroup, sections.callables];
         for (section, place) in all.iter().zip(&layout.places) {
             bytes[place.offset..place.offset + section.bytes.len()].copy_from_slice(section.bytes);
         }
@@ -82,13 +70,7 @@ impl ShaderBindingTable {
         let raw = layout.raw(buffer.address());
         let raygen_count = layout.places[0].count;
         let raygen_stride = sections.raygen.stride;
-        Ok(Self(Arc::new(Inner {
-            buffer,
-            raw,
-            raygen_count,
-            raygen_stride,
-            _keep: keep,
-        })))
+        Ok(Self(Arc::new(Inner { buffer, raw, raygen_count, raygen_stride, _keep: keep })))
     }
 
     /// Size in bytes.
@@ -109,11 +91,7 @@ impl ShaderBindingTable {
     pub(super) fn raw(&self, raygen: u32) -> Result<sys::OptixShaderBindingTable, Error> {
         if raygen >= self.0.raygen_count {
             let problem = format!("ray-generation record {raygen} of {}", self.0.raygen_count);
-            return Err(Error::invalid(
-                "a launch",
-                problem,
-                "count the ray-generation records from 0",
-            ));
+            return Err(Error::invalid("a launch", problem, "count the ray-generation records from 0"));
         }
         let mut raw = self.0.raw;
         raw.raygen_record += u64::from(raygen) * self.0.raygen_stride as u64;
@@ -131,11 +109,7 @@ struct Place {
 
 impl Place {
     fn address(self, base: u64) -> u64 {
-        if self.count == 0 {
-            0
-        } else {
-            base + self.offset as u64
-        }
+        if self.count == 0 { 0 } else { base + self.offset as u64 }
     }
 }
 
@@ -160,17 +134,9 @@ impl Layout {
         for ((name, section), place) in named.into_iter().zip(&mut places) {
             *place = Self::place(name, section, size)?;
             // Strides are multiples of 16, so the next section is aligned as this one is.
-            size = size
-                .checked_add(section.bytes.len())
-                .ok_or_else(|| too_large(name))?;
+            size = size.checked_add(section.bytes.len()).ok_or_else(|| too_large(name))?;
         }
-        let invalid = |what, problem| {
-            Err(Error::invalid(
-                what,
-                problem,
-                "pack one record a program to run",
-            ))
-        };
+        let invalid = |what, problem| Err(Error::invalid(what, problem, "pack one record a program to run"));
         if places[0].count == 0 {
             return invalid(named[0].0, "it has no record");
         }
@@ -185,30 +151,18 @@ impl Layout {
         if bytes.is_empty() {
             return Ok(Place::default());
         }
-        if stride < OPTIX_SBT_RECORD_HEADER_SIZE
-            || !stride.is_multiple_of(OPTIX_SBT_RECORD_ALIGNMENT)
-        {
+        if stride < OPTIX_SBT_RECORD_HEADER_SIZE || !stride.is_multiple_of(OPTIX_SBT_RECORD_ALIGNMENT) {
             let problem = format!("its stride is {stride} bytes");
-            let remedy = "round header (32 bytes) and data up to a multiple of 16, the largest record of the section first";
+            let remedy =
+                "round header (32 bytes) and data up to a multiple of 16, the largest record of the section first";
             return Err(Error::invalid(what, problem, remedy));
         }
         if !bytes.len().is_multiple_of(stride) {
-            let problem = format!(
-                "its {} bytes are not whole records of {stride}",
-                bytes.len()
-            );
-            return Err(Error::invalid(
-                what,
-                problem,
-                "pad every record of a section to the same stride",
-            ));
+            let problem = format!("its {} bytes are not whole records of {stride}", bytes.len());
+            return Err(Error::invalid(what, problem, "pad every record of a section to the same stride"));
         }
         let count = u32::try_from(bytes.len() / stride).map_err(|_| too_large(what))?;
-        Ok(Place {
-            offset,
-            stride: u32::try_from(stride).map_err(|_| too_large(what))?,
-            count,
-        })
+        Ok(Place { offset, stride: u32::try_from(stride).map_err(|_| too_large(what))?, count })
     }
 
     fn raw(&self, base: u64) -> sys::OptixShaderBindingTable {
@@ -230,11 +184,7 @@ impl Layout {
 }
 
 fn too_large(what: &'static str) -> Error {
-    Error::invalid(
-        what,
-        "it is larger than 32-bit counts and strides allow",
-        "put large data behind a pointer",
-    )
+    Error::invalid(what, "it is larger than 32-bit counts and strides allow", "put large data behind a pointer")
 }
 
 #[cfg(test)]
@@ -256,52 +206,21 @@ mod tests {
         };
         let raw = Layout::new(&sections).unwrap().raw(0x1000);
         assert_eq!((raw.raygen_record, raw.exception_record), (0x1000, 0));
-        assert_eq!(
-            (
-                raw.miss_record_base,
-                raw.miss_record_stride_in_bytes,
-                raw.miss_record_count
-            ),
-            (0x1040, 48, 2)
-        );
-        assert_eq!(
-            (raw.hitgroup_record_base, raw.hitgroup_record_count),
-            (0x10a0, 3)
-        );
-        assert_eq!(
-            (raw.callables_record_base, raw.callables_record_count),
-            (0, 0)
-        );
+        assert_eq!((raw.miss_record_base, raw.miss_record_stride_in_bytes, raw.miss_record_count), (0x1040, 48, 2));
+        assert_eq!((raw.hitgroup_record_base, raw.hitgroup_record_count), (0x10a0, 3));
+        assert_eq!((raw.callables_record_base, raw.callables_record_count), (0, 0));
     }
 
     #[test]
     fn malformed_sections_are_refused() {
         let bytes = [0u8; 96];
-        let good = SbtSections {
-            raygen: section(&bytes[..32], 32),
-            ..Default::default()
-        };
+        let good = SbtSections { raygen: section(&bytes[..32], 32), ..Default::default() };
         assert!(Layout::new(&good).is_ok());
-        assert!(
-            Layout::new(&SbtSections {
-                raygen: SbtSection::default(),
-                ..good
-            })
-            .is_err()
-        );
-        assert!(
-            Layout::new(&SbtSections {
-                exception: section(&bytes[..64], 32),
-                ..good
-            })
-            .is_err()
-        );
+        assert!(Layout::new(&SbtSections { raygen: SbtSection::default(), ..good }).is_err());
+        assert!(Layout::new(&SbtSections { exception: section(&bytes[..64], 32), ..good }).is_err());
         for (len, stride) in [(96, 16), (96, 40), (96, 64), (96, 0), (96, 33)] {
             let miss = section(&bytes[..len], stride);
-            assert!(
-                Layout::new(&SbtSections { miss, ..good }).is_err(),
-                "{len} {stride}"
-            );
+            assert!(Layout::new(&SbtSections { miss, ..good }).is_err(), "{len} {stride}");
         }
     }
 }

@@ -85,61 +85,31 @@ pub fn conservative(max: GroupStack, depths: CallDepths) -> StackSizes {
 /// does, so the larger of the two counts there.
 pub fn compute(max: GroupStack, depths: CallDepths) -> StackSizes {
     let tree = css_cc_tree(&[(depths.continuation_callables, max.css_cc)]);
-    with_direct(
-        max.dss_dc,
-        max.dss_dc,
-        depths,
-        continuation(max, tree, depths.trace),
-    )
+    with_direct(max.dss_dc, max.dss_dc, depths, continuation(max, tree, depths.trace))
 }
 
 /// As [`compute`], when the direct callables reached from traversal and those reached from state are known (C066).
-pub fn compute_split(
-    max: GroupStack,
-    dss_from_traversal: u32,
-    dss_from_state: u32,
-    depths: CallDepths,
-) -> StackSizes {
+pub fn compute_split(max: GroupStack, dss_from_traversal: u32, dss_from_state: u32, depths: CallDepths) -> StackSizes {
     let tree = css_cc_tree(&[(depths.continuation_callables, max.css_cc)]);
-    with_direct(
-        dss_from_traversal,
-        dss_from_state,
-        depths,
-        continuation(max, tree, depths.trace),
-    )
+    with_direct(dss_from_traversal, dss_from_state, depths, continuation(max, tree, depths.trace))
 }
 
 /// As [`compute`], when the stack of the largest tree of continuation callables is known (C067, [`css_cc_tree`]).
 pub fn compute_with_tree(max: GroupStack, css_cc_tree: u32, depths: CallDepths) -> StackSizes {
-    with_direct(
-        max.dss_dc,
-        max.dss_dc,
-        depths,
-        continuation(max, css_cc_tree, depths.trace),
-    )
+    with_direct(max.dss_dc, max.dss_dc, depths, continuation(max, css_cc_tree, depths.trace))
 }
 
 /// The stack of the largest tree of continuation callables, given depth and size of each kind of tree (C067).
 pub fn css_cc_tree(trees: &[(u32, u32)]) -> u32 {
-    trees
-        .iter()
-        .map(|&(depth, css)| depth.saturating_mul(css))
-        .max()
-        .unwrap_or(0)
+    trees.iter().map(|&(depth, css)| depth.saturating_mul(css)).max().unwrap_or(0)
 }
 
 /// A path tracer without callables (C068): the ray-generation program traces camera rays, whose closest-hit program
 /// traces shadow rays, whose programs trace nothing. `camera` and `shadow` hold the maxima of each ray type's programs.
 pub fn simple_path_tracer(css_rg: u32, camera: GroupStack, shadow: GroupStack) -> StackSizes {
     let shadow_level = shadow.css_ms.max(shadow.css_ch).max(traversal(shadow));
-    let camera_level = camera
-        .css_ms
-        .max(camera.css_ch.saturating_add(shadow_level))
-        .max(traversal(camera));
-    StackSizes {
-        continuation: css_rg.saturating_add(camera_level),
-        ..StackSizes::default()
-    }
+    let camera_level = camera.css_ms.max(camera.css_ch.saturating_add(shadow_level)).max(traversal(camera));
+    StackSizes { continuation: css_rg.saturating_add(camera_level), ..StackSizes::default() }
 }
 
 fn traversal(max: GroupStack) -> u32 {
@@ -148,30 +118,17 @@ fn traversal(max: GroupStack) -> u32 {
 
 fn continuation(max: GroupStack, css_cc_tree: u32, trace_depth: u32) -> u32 {
     let state = max.css_ch.max(max.css_ms).saturating_add(css_cc_tree);
-    let deepest = if trace_depth > 0 {
-        state.max(traversal(max))
-    } else {
-        0
-    };
+    let deepest = if trace_depth > 0 { state.max(traversal(max)) } else { 0 };
     max.css_rg
         .saturating_add(css_cc_tree)
         .saturating_add(trace_depth.saturating_sub(1).saturating_mul(state))
         .saturating_add(deepest)
 }
 
-fn with_direct(
-    from_traversal: u32,
-    from_state: u32,
-    depths: CallDepths,
-    continuation: u32,
-) -> StackSizes {
+fn with_direct(from_traversal: u32, from_state: u32, depths: CallDepths, continuation: u32) -> StackSizes {
     StackSizes {
-        direct_from_traversal: depths
-            .direct_callables_from_traversal
-            .saturating_mul(from_traversal),
-        direct_from_state: depths
-            .direct_callables_from_state
-            .saturating_mul(from_state),
+        direct_from_traversal: depths.direct_callables_from_traversal.saturating_mul(from_traversal),
+        direct_from_state: depths.direct_callables_from_state.saturating_mul(from_state),
         continuation,
     }
 }
@@ -180,15 +137,8 @@ fn with_direct(
 mod tests {
     use super::*;
 
-    const MAX: GroupStack = GroupStack {
-        css_rg: 100,
-        css_ms: 30,
-        css_ch: 50,
-        css_ah: 20,
-        css_is: 40,
-        css_cc: 7,
-        dss_dc: 11,
-    };
+    const MAX: GroupStack =
+        GroupStack { css_rg: 100, css_ms: 30, css_ch: 50, css_ah: 20, css_is: 40, css_cc: 7, dss_dc: 11 };
     const DEPTHS: CallDepths = CallDepths {
         trace: 3,
         continuation_callables: 2,
@@ -200,14 +150,7 @@ mod tests {
     fn conservative_follows_the_guide() {
         // 100 + 14 + 3 * (50 + 14) + 40 + 20
         let sizes = conservative(MAX, DEPTHS);
-        assert_eq!(
-            sizes,
-            StackSizes {
-                direct_from_traversal: 11,
-                direct_from_state: 44,
-                continuation: 366
-            }
-        );
+        assert_eq!(sizes, StackSizes { direct_from_traversal: 11, direct_from_state: 44, continuation: 366 });
     }
 
     #[test]
@@ -215,19 +158,10 @@ mod tests {
         // 100 + 14 + 2 * 64 + max(64, 60)
         assert_eq!(compute(MAX, DEPTHS).continuation, 306);
         // A larger traversal decides the deepest level: 100 + 14 + 2 * 64 + (90 + 20)
-        assert_eq!(
-            compute(GroupStack { css_is: 90, ..MAX }, DEPTHS).continuation,
-            352
-        );
+        assert_eq!(compute(GroupStack { css_is: 90, ..MAX }, DEPTHS).continuation, 352);
         // Without traces only ray generation and its callables count.
-        assert_eq!(
-            compute(MAX, CallDepths { trace: 0, ..DEPTHS }).continuation,
-            114
-        );
-        assert_eq!(
-            compute(MAX, CallDepths { trace: 1, ..DEPTHS }).continuation,
-            178
-        );
+        assert_eq!(compute(MAX, CallDepths { trace: 0, ..DEPTHS }).continuation, 114);
+        assert_eq!(compute(MAX, CallDepths { trace: 1, ..DEPTHS }).continuation, 178);
     }
 
     #[test]
@@ -236,9 +170,7 @@ mod tests {
             for css_is in [0, 1, 40, 500] {
                 let max = GroupStack { css_is, ..MAX };
                 let depths = CallDepths { trace, ..DEPTHS };
-                assert!(
-                    compute(max, depths).continuation <= conservative(max, depths).continuation
-                );
+                assert!(compute(max, depths).continuation <= conservative(max, depths).continuation);
             }
         }
     }
@@ -246,10 +178,7 @@ mod tests {
     #[test]
     fn direct_callables_are_split_by_where_they_are_called() {
         let sizes = compute_split(MAX, 5, 9, DEPTHS);
-        assert_eq!(
-            (sizes.direct_from_traversal, sizes.direct_from_state),
-            (5, 36)
-        );
+        assert_eq!((sizes.direct_from_traversal, sizes.direct_from_state), (5, 36));
         assert_eq!(sizes.continuation, compute(MAX, DEPTHS).continuation);
     }
 
@@ -262,65 +191,29 @@ mod tests {
 
     #[test]
     fn a_path_tracer_takes_camera_and_shadow_levels_one_above_the_other() {
-        let camera = GroupStack {
-            css_ms: 30,
-            css_ch: 50,
-            ..Default::default()
-        };
-        let shadow = GroupStack {
-            css_ms: 8,
-            css_ch: 12,
-            ..Default::default()
-        };
-        assert_eq!(
-            simple_path_tracer(100, camera, shadow).continuation,
-            100 + 50 + 12
-        );
-        let deep_miss = GroupStack {
-            css_ms: 90,
-            ..camera
-        };
+        let camera = GroupStack { css_ms: 30, css_ch: 50, ..Default::default() };
+        let shadow = GroupStack { css_ms: 8, css_ch: 12, ..Default::default() };
+        assert_eq!(simple_path_tracer(100, camera, shadow).continuation, 100 + 50 + 12);
+        let deep_miss = GroupStack { css_ms: 90, ..camera };
         assert_eq!(simple_path_tracer(100, deep_miss, shadow).continuation, 190);
     }
 
     #[test]
     fn sums_saturate() {
-        let huge = GroupStack {
-            css_rg: u32::MAX,
-            css_ch: u32::MAX,
-            dss_dc: u32::MAX,
-            ..MAX
-        };
-        let depths = CallDepths {
-            trace: u32::MAX,
-            ..DEPTHS
-        };
+        let huge = GroupStack { css_rg: u32::MAX, css_ch: u32::MAX, dss_dc: u32::MAX, ..MAX };
+        let depths = CallDepths { trace: u32::MAX, ..DEPTHS };
         assert_eq!(compute(huge, depths).continuation, u32::MAX);
         assert_eq!(conservative(huge, depths).direct_from_state, u32::MAX);
     }
 
     #[test]
     fn the_maximum_of_groups_is_by_field() {
-        let a = GroupStack {
-            css_rg: 5,
-            ..Default::default()
-        };
-        let b = GroupStack {
-            css_ch: 7,
-            css_rg: 1,
-            ..Default::default()
-        };
+        let a = GroupStack { css_rg: 5, ..Default::default() };
+        let b = GroupStack { css_ch: 7, css_rg: 1, ..Default::default() };
         assert_eq!(
             [a, b].into_iter().collect::<GroupStack>(),
-            GroupStack {
-                css_rg: 5,
-                css_ch: 7,
-                ..Default::default()
-            }
+            GroupStack { css_rg: 5, css_ch: 7, ..Default::default() }
         );
-        assert_eq!(
-            std::iter::empty().collect::<GroupStack>(),
-            GroupStack::default()
-        );
+        assert_eq!(std::iter::empty().collect::<GroupStack>(), GroupStack::default());
     }
 }

@@ -29,39 +29,20 @@ impl Transform {
     pub fn fixed(child: impl Into<Traversable>, matrix: [f32; 12]) -> Result<Self, Error> {
         let Some(inverse) = invert(matrix) else {
             let problem = format!("{matrix:?} has no inverse");
-            return Err(Error::invalid(
-                "a static transform",
-                problem,
-                "give a matrix of full rank and finite numbers",
-            ));
+            return Err(Error::invalid("a static transform", problem, "give a matrix of full rank and finite numbers"));
         };
         let child = child.into();
         let mut bytes = Bytes::new(&child);
         bytes.padding(8).floats(&matrix).floats(&inverse);
-        Self::new(
-            child,
-            Type::STATIC_TRANSFORM,
-            bytes,
-            size_of::<sys::OptixStaticTransform>(),
-        )
+        Self::new(child, Type::STATIC_TRANSFORM, bytes, size_of::<sys::OptixStaticTransform>())
     }
 
     /// Row-major 3x4 matrices, one a motion key, interpolated element by element.
     ///
     /// # Errors
     /// [`Error::Invalid`] for motion options that don't fit the keys.
-    pub fn matrix_motion(
-        child: impl Into<Traversable>,
-        keys: &[[f32; 12]],
-        motion: &Motion,
-    ) -> Result<Self, Error> {
-        Self::motion(
-            child.into(),
-            Type::MATRIX_MOTION_TRANSFORM,
-            keys.len(),
-            keys.as_flattened(),
-            motion,
-        )
+    pub fn matrix_motion(child: impl Into<Traversable>, keys: &[[f32; 12]], motion: &Motion) -> Result<Self, Error> {
+        Self::motion(child.into(), Type::MATRIX_MOTION_TRANSFORM, keys.len(), keys.as_flattened(), motion)
     }
 
     /// Scale with shear and pivot, rotation, translation, one a motion key, interpolated separately (guide §5.10.5). The
@@ -69,45 +50,19 @@ impl Transform {
     ///
     /// # Errors
     /// [`Error::Invalid`] for motion options that don't fit the keys.
-    pub fn srt_motion(
-        child: impl Into<Traversable>,
-        keys: &[[f32; 16]],
-        motion: &Motion,
-    ) -> Result<Self, Error> {
-        Self::motion(
-            child.into(),
-            Type::SRT_MOTION_TRANSFORM,
-            keys.len(),
-            keys.as_flattened(),
-            motion,
-        )
+    pub fn srt_motion(child: impl Into<Traversable>, keys: &[[f32; 16]], motion: &Motion) -> Result<Self, Error> {
+        Self::motion(child.into(), Type::SRT_MOTION_TRANSFORM, keys.len(), keys.as_flattened(), motion)
     }
 
-    fn motion(
-        child: Traversable,
-        kind: Type,
-        keys: usize,
-        floats: &[f32],
-        motion: &Motion,
-    ) -> Result<Self, Error> {
+    fn motion(child: Traversable, kind: Type, keys: usize, floats: &[f32], motion: &Motion) -> Result<Self, Error> {
         if keys != usize::from(motion.keys) {
             let problem = format!("{keys} keys are given, the motion has {}", motion.keys);
-            return Err(Error::invalid(
-                "a motion transform",
-                problem,
-                "give one entry a motion key",
-            ));
+            return Err(Error::invalid("a motion transform", problem, "give one entry a motion key"));
         }
         let raw = motion.raw()?;
         let mut bytes = Bytes::new(&child);
-        bytes
-            .half(raw.num_keys)
-            .half(raw.flags.0)
-            .floats(&[raw.time_begin, raw.time_end])
-            .padding(12)
-            .floats(floats);
-        let size =
-            std::mem::offset_of!(sys::OptixMatrixMotionTransform, transform) + size_of_val(floats);
+        bytes.half(raw.num_keys).half(raw.flags.0).floats(&[raw.time_begin, raw.time_end]).padding(12).floats(floats);
+        let size = std::mem::offset_of!(sys::OptixMatrixMotionTransform, transform) + size_of_val(floats);
         Self::new(child, kind, bytes, size)
     }
 
@@ -120,19 +75,10 @@ impl Transform {
         // SAFETY: the context is live, the address is that of a transform of this kind, and `handle` is valid for a write.
         let result = unsafe {
             let table = context.table();
-            table.convert_pointer_to_traversable_handle(
-                context.raw(),
-                buffer.address(),
-                kind,
-                &mut handle,
-            )
+            table.convert_pointer_to_traversable_handle(context.raw(), buffer.address(), kind, &mut handle)
         };
         context.check("optixConvertPointerToTraversableHandle", result)?;
-        Ok(Self(Arc::new(Inner {
-            handle,
-            child,
-            _buffer: buffer,
-        })))
+        Ok(Self(Arc::new(Inner { handle, child, _buffer: buffer })))
     }
 
     /// The traversable handle.
@@ -165,8 +111,7 @@ impl Bytes {
     }
 
     fn floats(&mut self, values: &[f32]) -> &mut Self {
-        self.0
-            .extend(values.iter().flat_map(|value| value.to_ne_bytes()));
+        self.0.extend(values.iter().flat_map(|value| value.to_ne_bytes()));
         self
     }
 
@@ -191,10 +136,7 @@ fn invert(m: [f32; 12]) -> Option<[f32; 12]> {
     for (out, [x, y, z]) in inverse.as_chunks_mut::<4>().0.iter_mut().zip(rows) {
         *out = [x, y, z, -(x * tx + y * ty + z * tz)].map(|x| x as f32);
     }
-    inverse
-        .iter()
-        .all(|x: &f32| x.is_finite())
-        .then_some(inverse)
+    inverse.iter().all(|x: &f32| x.is_finite()).then_some(inverse)
 }
 
 #[cfg(test)]
@@ -203,19 +145,14 @@ mod tests {
 
     #[test]
     fn an_affine_matrix_times_its_inverse_is_the_identity() {
-        let m = [
-            2.0, 1.0, 0.5, 3.0, -1.0, 4.0, 0.0, -2.0, 0.25, 0.0, 5.0, 7.0,
-        ];
+        let m = [2.0, 1.0, 0.5, 3.0, -1.0, 4.0, 0.0, -2.0, 0.25, 0.0, 5.0, 7.0];
         let n = invert(m).unwrap();
         for row in 0..3 {
             for column in 0..4 {
                 let product: f32 = (0..3).map(|k| m[row * 4 + k] * n[k * 4 + column]).sum();
                 let value = product + if column == 3 { m[row * 4 + 3] } else { 0.0 };
                 let expected = if row == column { 1.0 } else { 0.0 };
-                assert!(
-                    (value - expected).abs() < 1e-5,
-                    "row {row} column {column}: {value}"
-                );
+                assert!((value - expected).abs() < 1e-5, "row {row} column {column}: {value}");
             }
         }
     }
@@ -224,9 +161,6 @@ mod tests {
     fn a_flat_or_broken_matrix_has_no_inverse() {
         assert_eq!(invert([0.0; 12]), None);
         assert_eq!(invert([f32::NAN; 12]), None);
-        assert_eq!(
-            invert([1.0, 2.0, 3.0, 0.0, 2.0, 4.0, 6.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
-            None
-        );
+        assert_eq!(invert([1.0, 2.0, 3.0, 0.0, 2.0, 4.0, 6.0, 0.0, 0.0, 0.0, 1.0, 0.0]), None);
     }
 }

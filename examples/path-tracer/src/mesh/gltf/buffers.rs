@@ -17,26 +17,16 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 );
 
 /// The contents of every buffer, each at least as long as it is declared.
-pub(super) fn load(
-    document: &Document,
-    mut blob: Option<Vec<u8>>,
-    folder: &Path,
-) -> Result<Vec<Vec<u8>>, Fault> {
+pub(super) fn load(document: &Document, mut blob: Option<Vec<u8>>, folder: &Path) -> Result<Vec<Vec<u8>>, Fault> {
     let mut buffers = Vec::new();
     for buffer in document.buffers() {
         let fault = |why: String| Fault::new(format!("buffer {}", buffer.index()), why);
         let bytes = match buffer.source() {
-            Source::Bin => blob
-                .take()
-                .ok_or_else(|| fault("the file has no binary chunk for it".into()))?,
+            Source::Bin => blob.take().ok_or_else(|| fault("the file has no binary chunk for it".into()))?,
             Source::Uri(uri) => read_uri(uri, folder).map_err(fault)?,
         };
         if bytes.len() < buffer.length() {
-            return Err(fault(format!(
-                "has {} bytes, {} are declared",
-                bytes.len(),
-                buffer.length()
-            )));
+            return Err(fault(format!("has {} bytes, {} are declared", bytes.len(), buffer.length())));
         }
         buffers.push(bytes);
     }
@@ -49,20 +39,12 @@ fn read_uri(uri: &str, folder: &Path) -> Result<Vec<u8>, String> {
         if !kind.ends_with(";base64") {
             return Err("its data URI is not in base64".into());
         }
-        return BASE64
-            .decode(encoded)
-            .map_err(|e| format!("its data URI is not valid base64: {e}"));
+        return BASE64.decode(encoded).map_err(|e| format!("its data URI is not valid base64: {e}"));
     }
     let name = percent_decoded(uri).ok_or_else(|| format!("its URI {uri:?} is not valid"))?;
     let relative = PathBuf::from(&name);
-    if name.contains("://")
-        || !relative
-            .components()
-            .all(|c| matches!(c, Component::Normal(_) | Component::CurDir))
-    {
-        return Err(format!(
-            "its URI {name:?} is not the name of a file beside the glTF file or below it"
-        ));
+    if name.contains("://") || !relative.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir)) {
+        return Err(format!("its URI {name:?} is not the name of a file beside the glTF file or below it"));
     }
     read_file(&folder.join(relative)).map_err(|e| e.to_string())
 }

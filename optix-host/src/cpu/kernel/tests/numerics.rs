@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::super::bvh::{Bvh, Lanes};
-use super::super::ray::Frame;
+use super::super::ray::{Axis, Frame};
 use super::super::simd::Task;
 use super::super::triangle::{Block, TriangleHit, edge, hit};
 use super::*;
@@ -105,7 +105,8 @@ struct Reference {
     smallest_height: f64,
 }
 
-fn reference(corners: &[[f32; 3]; 3], ray: &Ray, axes: [usize; 3]) -> Option<Reference> {
+fn reference(corners: &[[f32; 3]; 3], ray: &Ray, axes: [Axis; 3]) -> Option<Reference> {
+    let axes = axes.map(|a| a as usize);
     let o = ray.origin.map(f64::from);
     let d = ray.direction.map(f64::from);
     let moved = corners.map(|v| [0, 1, 2].map(|a| f64::from(v[a]) - o[a]));

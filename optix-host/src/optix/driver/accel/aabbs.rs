@@ -25,11 +25,7 @@ impl Accel {
     ///
     /// # Errors
     /// As [`Self::triangles`].
-    pub fn aabbs(
-        context: &Context,
-        inputs: &[AabbInput<'_>],
-        options: &AccelOptions,
-    ) -> Result<Self, Error> {
+    pub fn aabbs(context: &Context, inputs: &[AabbInput<'_>], options: &AccelOptions) -> Result<Self, Error> {
         gas(context, inputs, options)
     }
 }
@@ -52,16 +48,11 @@ impl Input for AabbInput<'_> {
         let (sbt_buffer, sbt_size) = unsafe { self.records.place(staging)? };
         // SAFETY: as above.
         let aabbs = unsafe { place_keys(staging, &self.aabbs)? };
-        if let Some(address) = aabbs
-            .iter()
-            .find(|address| !address.is_multiple_of(sys::OPTIX_AABB_BUFFER_BYTE_ALIGNMENT))
+        if let Some(address) =
+            aabbs.iter().find(|address| !address.is_multiple_of(sys::OPTIX_AABB_BUFFER_BYTE_ALIGNMENT))
         {
             let problem = format!("the device address {address:#x} is no multiple of 8");
-            return Err(Error::invalid(
-                "boxes of custom primitives",
-                problem,
-                "align the boxes to 8 bytes",
-            ));
+            return Err(Error::invalid("boxes of custom primitives", problem, "align the boxes to 8 bytes"));
         }
         let array = sys::OptixBuildInputCustomPrimitiveArray {
             num_primitives: self.primitives()?,

@@ -18,69 +18,28 @@ pub(super) struct RawInput {
 
 impl RawInput {
     /// `vertices` holds a device address a motion key, `flags` an entry a record.
-    pub(super) fn triangles(
-        array: sys::OptixBuildInputTriangleArray,
-        vertices: Box<[u64]>,
-        flags: Box<[u32]>,
-    ) -> Self {
-        let triangle_array = sys::OptixBuildInputTriangleArray {
-            vertex_buffers: vertices.as_ptr(),
-            flags: flags.as_ptr(),
-            ..array
-        };
-        Self::new(
-            Type::TRIANGLES,
-            |union| union.triangle_array = triangle_array,
-            vertices,
-            flags,
-        )
+    pub(super) fn triangles(array: sys::OptixBuildInputTriangleArray, vertices: Box<[u64]>, flags: Box<[u32]>) -> Self {
+        let triangle_array =
+            sys::OptixBuildInputTriangleArray { vertex_buffers: vertices.as_ptr(), flags: flags.as_ptr(), ..array };
+        Self::new(Type::TRIANGLES, |union| union.triangle_array = triangle_array, vertices, flags)
     }
 
     /// `aabbs` holds a device address a motion key, `flags` an entry a record.
-    pub(super) fn aabbs(
-        array: sys::OptixBuildInputCustomPrimitiveArray,
-        aabbs: Box<[u64]>,
-        flags: Box<[u32]>,
-    ) -> Self {
-        let custom_primitive_array = sys::OptixBuildInputCustomPrimitiveArray {
-            aabb_buffers: aabbs.as_ptr(),
-            flags: flags.as_ptr(),
-            ..array
-        };
-        Self::new(
-            Type::CUSTOM_PRIMITIVES,
-            |union| union.custom_primitive_array = custom_primitive_array,
-            aabbs,
-            flags,
-        )
+    pub(super) fn aabbs(array: sys::OptixBuildInputCustomPrimitiveArray, aabbs: Box<[u64]>, flags: Box<[u32]>) -> Self {
+        let custom_primitive_array =
+            sys::OptixBuildInputCustomPrimitiveArray { aabb_buffers: aabbs.as_ptr(), flags: flags.as_ptr(), ..array };
+        Self::new(Type::CUSTOM_PRIMITIVES, |union| union.custom_primitive_array = custom_primitive_array, aabbs, flags)
     }
 
     pub(super) fn instances(instance_array: sys::OptixBuildInputInstanceArray) -> Self {
-        Self::new(
-            Type::INSTANCES,
-            |union| union.instance_array = instance_array,
-            Box::default(),
-            Box::default(),
-        )
+        Self::new(Type::INSTANCES, |union| union.instance_array = instance_array, Box::default(), Box::default())
     }
 
     /// The union is zero apart from the member that counts (A016).
-    fn new(
-        kind: Type,
-        fill: impl FnOnce(&mut Union),
-        buffers: Box<[u64]>,
-        flags: Box<[u32]>,
-    ) -> Self {
-        let mut input = sys::OptixBuildInput {
-            kind,
-            ..Default::default()
-        };
+    fn new(kind: Type, fill: impl FnOnce(&mut Union), buffers: Box<[u64]>, flags: Box<[u32]>) -> Self {
+        let mut input = sys::OptixBuildInput { kind, ..Default::default() };
         fill(&mut input.input);
-        Self {
-            input,
-            _buffers: buffers,
-            _flags: flags,
-        }
+        Self { input, _buffers: buffers, _flags: flags }
     }
 }
 
@@ -98,41 +57,24 @@ pub(super) unsafe fn build(
 ) -> Result<Accel, Error> {
     let inputs: Vec<_> = inputs.iter().map(|input| input.input).collect();
     let count = u32::try_from(inputs.len()).map_err(|_| {
-        Error::invalid(
-            "an acceleration structure",
-            "more than 2^32 build inputs",
-            "split the structure",
-        )
+        Error::invalid("an acceleration structure", "more than 2^32 build inputs", "split the structure")
     })?;
     let raw_options = options.raw()?;
     let table = context.table();
     let _current = context.enter()?;
     let mut sizes = sys::OptixAccelBufferSizes::default();
     // SAFETY: the context is live, the options and inputs are locals, and the call reads no device memory (B010).
-    let result = unsafe {
-        table.accel_compute_memory_usage(
-            context.raw(),
-            &raw_options,
-            inputs.as_ptr(),
-            count,
-            &mut sizes,
-        )
-    };
+    let result =
+        unsafe { table.accel_compute_memory_usage(context.raw(), &raw_options, inputs.as_ptr(), count, &mut sizes) };
     context.check("optixAccelComputeMemoryUsage", result)?;
 
     let temp = DeviceBuffer::new(context, sizes.temp_size_in_bytes)?;
     let output = DeviceBuffer::new(context, sizes.output_size_in_bytes)?;
-    let compacted_size = if options.compact {
-        Some(DeviceBuffer::zeroed(context, size_of::<u64>())?)
-    } else {
-        None
-    };
-    let emitted = compacted_size
-        .as_ref()
-        .map(|buffer| sys::OptixAccelEmitDesc {
-            result: buffer.address(),
-            kind: sys::OptixAccelPropertyType::COMPACTED_SIZE,
-        });
+    let compacted_size = if options.compact { Some(DeviceBuffer::zeroed(context, size_of::<u64>())?) } else { None };
+    let emitted = compacted_size.as_ref().map(|buffer| sys::OptixAccelEmitDesc {
+        result: buffer.address(),
+        kind: sys::OptixAccelPropertyType::COMPACTED_SIZE,
+    });
     let mut handle = 0;
     // SAFETY: the context is live and current; the buffers have the sizes asked for, are aligned to 256 bytes and are
     // used by nothing else; the caller promises the inputs.
@@ -148,9 +90,7 @@ pub(super) unsafe fn build(
             output.address(),
             output.len(),
             &mut handle,
-            emitted
-                .as_ref()
-                .map_or(std::ptr::null(), |emitted| &raw const *emitted),
+            emitted.as_ref().map_or(std::ptr::null(), |emitted| &raw const *emitted),
             emitted.is_some().into(),
         )
     };
@@ -170,23 +110,13 @@ pub(super) unsafe fn build(
     // Faults of the build are reported here, and the buffers that go now are no longer in use.
     context.synchronize()?;
     let (handle, buffer) = built;
-    Ok(Accel(Arc::new(Inner {
-        handle,
-        depth,
-        built_size,
-        buffer,
-        _children: children,
-    })))
+    Ok(Accel(Arc::new(Inner { handle, depth, built_size, buffer, _children: children })))
 }
 
 /// # Safety
 /// `handle` is a live acceleration structure of this context, built with compaction allowed, and its memory stays until
 /// the stream has got past the copy (a [`DeviceBuffer`] waits when it is dropped).
-unsafe fn compact(
-    context: &Context,
-    handle: u64,
-    size: usize,
-) -> Result<(u64, DeviceBuffer), Error> {
+unsafe fn compact(context: &Context, handle: u64, size: usize) -> Result<(u64, DeviceBuffer), Error> {
     let output = DeviceBuffer::new(context, size)?;
     let mut compacted = 0;
     // SAFETY: the context is current; the output is aligned to 256 bytes, has the size that the build emitted, and does
@@ -194,14 +124,7 @@ unsafe fn compact(
     let result = unsafe {
         let table = context.table();
         let (address, len) = (output.address(), output.len());
-        table.accel_compact(
-            context.raw(),
-            context.cuda_stream(),
-            handle,
-            address,
-            len,
-            &mut compacted,
-        )
+        table.accel_compact(context.raw(), context.cuda_stream(), handle, address, len, &mut compacted)
     };
     context.check("optixAccelCompact", result)?;
     Ok((compacted, output))

@@ -16,8 +16,7 @@ impl InstanceFlags {
     /// Nothing special.
     pub const NONE: Self = Self(sys::OptixInstanceFlags::NONE.0);
     /// Triangles are never culled by their facing, whatever the ray says.
-    pub const DISABLE_TRIANGLE_FACE_CULLING: Self =
-        Self(sys::OptixInstanceFlags::DISABLE_TRIANGLE_FACE_CULLING.0);
+    pub const DISABLE_TRIANGLE_FACE_CULLING: Self = Self(sys::OptixInstanceFlags::DISABLE_TRIANGLE_FACE_CULLING.0);
     /// Front and back of triangles change places.
     pub const FLIP_TRIANGLE_FACING: Self = Self(sys::OptixInstanceFlags::FLIP_TRIANGLE_FACING.0);
     /// Any-hit programs don't run, unless the ray enforces them.
@@ -25,8 +24,7 @@ impl InstanceFlags {
     /// Any-hit programs run, unless the ray disables them.
     pub const ENFORCE_ANYHIT: Self = Self(sys::OptixInstanceFlags::ENFORCE_ANYHIT.0);
     /// Unknown states of opacity micromaps count as the known ones.
-    pub const FORCE_OPACITY_MICROMAP_2_STATE: Self =
-        Self(sys::OptixInstanceFlags::FORCE_OPACITY_MICROMAP_2_STATE.0);
+    pub const FORCE_OPACITY_MICROMAP_2_STATE: Self = Self(sys::OptixInstanceFlags::FORCE_OPACITY_MICROMAP_2_STATE.0);
 
     /// The flags of these bits, as in [`sys::OptixInstanceFlags`].
     pub fn from_bits(bits: u32) -> Self {
@@ -89,11 +87,7 @@ impl Accel {
     /// # Errors
     /// [`Error::Invalid`] for ids, offsets and counts beyond the limits and traversables of another context,
     /// [`Error::Optix`] or [`Error::Cuda`] otherwise.
-    pub fn instances(
-        context: &Context,
-        instances: &[Instance],
-        options: &AccelOptions,
-    ) -> Result<Self, Error> {
+    pub fn instances(context: &Context, instances: &[Instance], options: &AccelOptions) -> Result<Self, Error> {
         let limits = context.limits();
         check_count(instances.len(), limits)?;
         for (index, instance) in instances.iter().enumerate() {
@@ -101,15 +95,8 @@ impl Accel {
             check(index, instance, limits)?;
         }
         let raw: Vec<_> = instances.iter().map(Instance::raw).collect();
-        let depth = 1 + instances
-            .iter()
-            .map(|instance| instance.traversable.depth())
-            .max()
-            .unwrap_or(0);
-        let children = instances
-            .iter()
-            .map(|instance| instance.traversable.clone())
-            .collect();
+        let depth = 1 + instances.iter().map(|instance| instance.traversable.depth()).max().unwrap_or(0);
+        let children = instances.iter().map(|instance| instance.traversable.clone()).collect();
         let mut staging = Staging::new(context);
         // SAFETY: `staging` is declared after `raw`, so it is dropped, and waits for the copy, before `raw` goes.
         let address = unsafe { staging.place(&Source::host(&raw))? };
@@ -129,39 +116,24 @@ fn check_count(count: usize, limits: &Limits) -> Result<(), Error> {
     if u32::try_from(count).is_ok_and(|count| count <= limits.max_instances_per_ias) {
         return Ok(());
     }
-    let problem = format!(
-        "{count} instances, more than {}",
-        limits.max_instances_per_ias
-    );
-    Err(Error::invalid(
-        "an instance acceleration structure",
-        problem,
-        "put an instance level between (B007)",
-    ))
+    let problem = format!("{count} instances, more than {}", limits.max_instances_per_ias);
+    Err(Error::invalid("an instance acceleration structure", problem, "put an instance level between (B007)"))
 }
 
 fn check(index: usize, instance: &Instance, limits: &Limits) -> Result<(), Error> {
     const WHAT: &str = "an instance";
     let remedy = "ids and record offsets have 28 bits (B062)";
     if instance.id > limits.max_instance_id {
-        let problem = format!(
-            "instance {index} has id {}, more than {}",
-            instance.id, limits.max_instance_id
-        );
+        let problem = format!("instance {index} has id {}, more than {}", instance.id, limits.max_instance_id);
         return Err(Error::invalid(WHAT, problem, remedy));
     }
     if instance.sbt_offset > limits.max_sbt_offset {
-        let problem = format!(
-            "instance {index} has record offset {}, more than {}",
-            instance.sbt_offset, limits.max_sbt_offset
-        );
+        let problem =
+            format!("instance {index} has record offset {}, more than {}", instance.sbt_offset, limits.max_sbt_offset);
         return Err(Error::invalid(WHAT, problem, remedy));
     }
     if instance.transform.iter().any(|x| !x.is_finite()) {
-        let problem = format!(
-            "instance {index} has the transform {:?}",
-            instance.transform
-        );
+        let problem = format!("instance {index} has the transform {:?}", instance.transform);
         return Err(Error::invalid(WHAT, problem, "give finite numbers"));
     }
     Ok(())

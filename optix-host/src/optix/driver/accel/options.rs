@@ -2,8 +2,7 @@
 
 use super::super::error::Error;
 use super::super::sys::{
-    OptixAccelBuildOptions, OptixBuildFlags, OptixBuildOperation, OptixMotionFlags,
-    OptixMotionOptions,
+    OptixAccelBuildOptions, OptixBuildFlags, OptixBuildOperation, OptixMotionFlags, OptixMotionOptions,
 };
 
 /// How an acceleration structure is built.
@@ -51,29 +50,15 @@ pub struct Motion {
 impl Motion {
     pub(in super::super) fn raw(&self) -> Result<OptixMotionOptions, Error> {
         // Written so that a NaN is refused.
-        if self.keys < 2
-            || !(self.begin < self.end && self.begin.is_finite() && self.end.is_finite())
-        {
-            let problem = format!(
-                "{} keys from time {} to {}",
-                self.keys, self.begin, self.end
-            );
-            return Err(Error::invalid(
-                "motion",
-                problem,
-                "give at least 2 keys and an end after the begin",
-            ));
+        if self.keys < 2 || !(self.begin < self.end && self.begin.is_finite() && self.end.is_finite()) {
+            let problem = format!("{} keys from time {} to {}", self.keys, self.begin, self.end);
+            return Err(Error::invalid("motion", problem, "give at least 2 keys and an end after the begin"));
         }
         let flag = |on: bool, flag: OptixMotionFlags| if on { flag.0 } else { 0 };
         let start = flag(self.start_vanish, OptixMotionFlags::START_VANISH);
         let end = flag(self.end_vanish, OptixMotionFlags::END_VANISH);
         let flags = OptixMotionFlags(start | end);
-        Ok(OptixMotionOptions {
-            num_keys: self.keys,
-            flags,
-            time_begin: self.begin,
-            time_end: self.end,
-        })
+        Ok(OptixMotionOptions { num_keys: self.keys, flags, time_begin: self.begin, time_end: self.end })
     }
 }
 
@@ -93,10 +78,7 @@ impl AccelOptions {
         [
             (self.compact, Flags::ALLOW_COMPACTION),
             (self.random_vertex_access, Flags::ALLOW_RANDOM_VERTEX_ACCESS),
-            (
-                self.random_instance_access,
-                Flags::ALLOW_RANDOM_INSTANCE_ACCESS,
-            ),
+            (self.random_instance_access, Flags::ALLOW_RANDOM_INSTANCE_ACCESS),
         ]
         .into_iter()
         .filter(|(on, _)| *on)
@@ -107,10 +89,7 @@ impl AccelOptions {
         Ok(OptixAccelBuildOptions {
             build_flags: self.flags(),
             operation: OptixBuildOperation::BUILD,
-            motion_options: self
-                .motion
-                .as_ref()
-                .map_or(Ok(OptixMotionOptions::default()), Motion::raw)?,
+            motion_options: self.motion.as_ref().map_or(Ok(OptixMotionOptions::default()), Motion::raw)?,
         })
     }
 }
@@ -119,13 +98,7 @@ impl AccelOptions {
 mod tests {
     use super::*;
 
-    const MOTION: Motion = Motion {
-        keys: 3,
-        begin: 0.0,
-        end: 1.0,
-        start_vanish: false,
-        end_vanish: true,
-    };
+    const MOTION: Motion = Motion { keys: 3, begin: 0.0, end: 1.0, start_vanish: false, end_vanish: true };
 
     #[test]
     fn options_become_bits() {
@@ -138,36 +111,17 @@ mod tests {
         };
         let raw = options.raw().unwrap();
         assert_eq!((raw.build_flags, raw.operation.0), (2 | 4 | 16, 8545));
-        assert_eq!(
-            (raw.motion_options.num_keys, raw.motion_options.flags.0),
-            (3, 2)
-        );
-        assert_eq!(
-            AccelOptions::default()
-                .raw()
-                .unwrap()
-                .motion_options
-                .num_keys,
-            0
-        );
+        assert_eq!((raw.motion_options.num_keys, raw.motion_options.flags.0), (3, 2));
+        assert_eq!(AccelOptions::default().raw().unwrap().motion_options.num_keys, 0);
     }
 
     #[test]
     fn motion_needs_two_keys_and_a_span_of_time() {
         for motion in [
             Motion { keys: 1, ..MOTION },
-            Motion {
-                begin: 1.0,
-                ..MOTION
-            },
-            Motion {
-                end: f32::NAN,
-                ..MOTION
-            },
-            Motion {
-                end: f32::INFINITY,
-                ..MOTION
-            },
+            Motion { begin: 1.0, ..MOTION },
+            Motion { end: f32::NAN, ..MOTION },
+            Motion { end: f32::INFINITY, ..MOTION },
         ] {
             assert!(motion.raw().is_err(), "{motion:?}");
         }

@@ -14,11 +14,9 @@ impl GeometryFlags {
     /// Any-hit programs never run. Faster, even where there is none.
     pub const DISABLE_ANYHIT: Self = Self(sys::OptixGeometryFlags::DISABLE_ANYHIT.0);
     /// Any-hit programs run at most once for a primitive and ray. May be slower.
-    pub const REQUIRE_SINGLE_ANYHIT_CALL: Self =
-        Self(sys::OptixGeometryFlags::REQUIRE_SINGLE_ANYHIT_CALL.0);
+    pub const REQUIRE_SINGLE_ANYHIT_CALL: Self = Self(sys::OptixGeometryFlags::REQUIRE_SINGLE_ANYHIT_CALL.0);
     /// Triangles are never culled by their facing.
-    pub const DISABLE_TRIANGLE_FACE_CULLING: Self =
-        Self(sys::OptixGeometryFlags::DISABLE_TRIANGLE_FACE_CULLING.0);
+    pub const DISABLE_TRIANGLE_FACE_CULLING: Self = Self(sys::OptixGeometryFlags::DISABLE_TRIANGLE_FACE_CULLING.0);
 
     /// Both together.
     #[must_use]
@@ -39,10 +37,7 @@ pub struct Records<'a> {
 impl Records<'_> {
     /// One record for all primitives.
     pub fn one(flags: GeometryFlags) -> Self {
-        Self {
-            flags: vec![flags],
-            indices: None,
-        }
+        Self { flags: vec![flags], indices: None }
     }
 }
 
@@ -66,11 +61,7 @@ impl Records<'_> {
                 1 => Ok(()),
                 _ => {
                     let problem = format!("{records} records and no record indices");
-                    Err(Error::invalid(
-                        WHAT,
-                        problem,
-                        "give one record, or an index a primitive (B028)",
-                    ))
+                    Err(Error::invalid(WHAT, problem, "give one record, or an index a primitive (B028)"))
                 }
             };
         };
@@ -86,17 +77,9 @@ impl Records<'_> {
         match largest {
             Some(index) if index as usize >= records => {
                 let problem = format!("record index {index}, but there are {records} records");
-                Err(Error::invalid(
-                    WHAT,
-                    problem,
-                    "count the records from 0, for each build input (B029)",
-                ))
+                Err(Error::invalid(WHAT, problem, "count the records from 0, for each build input (B029)"))
             }
-            _ if records == 0 => Err(Error::invalid(
-                WHAT,
-                "there is no record",
-                "give at least one (B028)",
-            )),
+            _ if records == 0 => Err(Error::invalid(WHAT, "there is no record", "give at least one (B028)")),
             _ => Ok(()),
         }
     }
@@ -137,12 +120,7 @@ mod tests {
     fn record_indices_are_checked() {
         let records = |count: usize, indices: Option<&[u8]>| {
             let indices = indices.map(|indices| SbtIndices::U8(Source::host(indices)));
-            Records {
-                flags: vec![GeometryFlags::NONE; count],
-                indices,
-            }
-            .check(3)
-            .is_ok()
+            Records { flags: vec![GeometryFlags::NONE; count], indices }.check(3).is_ok()
         };
         assert!(records(1, None));
         assert!(records(3, Some(&[0, 2, 1])));

@@ -15,11 +15,7 @@ pub struct Source<'a, T>(Place<'a, T>);
 #[derive(Clone, Copy, Debug)]
 enum Place<'a, T> {
     Host(&'a [T]),
-    Device {
-        buffer: &'a Arc<DeviceBuffer>,
-        offset: usize,
-        count: usize,
-    },
+    Device { buffer: &'a Arc<DeviceBuffer>, offset: usize, count: usize },
 }
 
 impl<'a, T: NoUninit> Source<'a, T> {
@@ -36,36 +32,19 @@ impl<'a, T: NoUninit> Source<'a, T> {
     /// # Safety
     /// The build reads the elements unchecked: vertex indices must be below the number of vertices and record indices
     /// below the number of records.
-    pub unsafe fn device(
-        buffer: &'a Arc<DeviceBuffer>,
-        offset: usize,
-        count: usize,
-    ) -> Result<Self, Error> {
+    pub unsafe fn device(buffer: &'a Arc<DeviceBuffer>, offset: usize, count: usize) -> Result<Self, Error> {
         const WHAT: &str = "build input in device memory";
-        let end = count
-            .checked_mul(size_of::<T>())
-            .and_then(|len| len.checked_add(offset));
+        let end = count.checked_mul(size_of::<T>()).and_then(|len| len.checked_add(offset));
         if end.is_none_or(|end| end > buffer.len()) {
             let size = size_of::<T>();
-            let problem = format!(
-                "{count} elements of {size} bytes at {offset} do not fit {} bytes",
-                buffer.len()
-            );
-            return Err(Error::invalid(
-                WHAT,
-                problem,
-                "count the elements from the offset on",
-            ));
+            let problem = format!("{count} elements of {size} bytes at {offset} do not fit {} bytes", buffer.len());
+            return Err(Error::invalid(WHAT, problem, "count the elements from the offset on"));
         }
         if !offset.is_multiple_of(align_of::<T>()) {
             let problem = format!("the offset {offset} is no multiple of {}", align_of::<T>());
             return Err(Error::invalid(WHAT, problem, "align the elements"));
         }
-        Ok(Self(Place::Device {
-            buffer,
-            offset,
-            count,
-        }))
+        Ok(Self(Place::Device { buffer, offset, count }))
     }
 
     /// Number of elements.
@@ -104,20 +83,14 @@ pub(super) struct Staging<'c> {
 
 impl<'c> Staging<'c> {
     pub(super) fn new(context: &'c Context) -> Self {
-        Self {
-            context,
-            buffers: Vec::new(),
-        }
+        Self { context, buffers: Vec::new() }
     }
 
     /// The device address of the elements, 0 without any; aligned to 256 bytes where it had to copy them.
     ///
     /// # Safety
     /// The elements must stay as they are until the stream has got past the copy.
-    pub(super) unsafe fn place<T: NoUninit>(
-        &mut self,
-        source: &Source<'_, T>,
-    ) -> Result<u64, Error> {
+    pub(super) unsafe fn place<T: NoUninit>(&mut self, source: &Source<'_, T>) -> Result<u64, Error> {
         match source.0 {
             Place::Host(elements) => {
                 let bytes = bytemuck::cast_slice(elements);
@@ -131,17 +104,9 @@ impl<'c> Staging<'c> {
                 }
                 Ok(address)
             }
-            Place::Device {
-                buffer,
-                offset,
-                count,
-            } => {
+            Place::Device { buffer, offset, count } => {
                 self.context.owns("build input", buffer.context())?;
-                Ok(if count == 0 {
-                    0
-                } else {
-                    buffer.address() + offset as u64
-                })
+                Ok(if count == 0 { 0 } else { buffer.address() + offset as u64 })
             }
         }
     }

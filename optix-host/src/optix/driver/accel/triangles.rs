@@ -38,11 +38,7 @@ impl Accel {
     ///
     /// # Errors
     /// [`Error::Invalid`] for data that break a rule of guide §5.1, [`Error::Optix`] or [`Error::Cuda`] otherwise.
-    pub fn triangles(
-        context: &Context,
-        inputs: &[TriangleInput<'_>],
-        options: &AccelOptions,
-    ) -> Result<Self, Error> {
+    pub fn triangles(context: &Context, inputs: &[TriangleInput<'_>], options: &AccelOptions) -> Result<Self, Error> {
         gas(context, inputs, options)
     }
 }
@@ -71,21 +67,13 @@ impl Input for TriangleInput<'_> {
             None if vertices.is_multiple_of(3) => None,
             None => {
                 let problem = format!("{vertices} vertices without indices");
-                return Err(Error::invalid(
-                    WHAT,
-                    problem,
-                    "give three vertices a triangle, or indices",
-                ));
+                return Err(Error::invalid(WHAT, problem, "give three vertices a triangle, or indices"));
             }
         };
         match largest {
             Some(index) if index as usize >= vertices => {
                 let problem = format!("vertex index {index}, but there are {vertices} vertices");
-                Err(Error::invalid(
-                    WHAT,
-                    problem,
-                    "count the vertices from 0, for each build input",
-                ))
+                Err(Error::invalid(WHAT, problem, "count the vertices from 0, for each build input"))
             }
             _ => Ok(()),
         }
@@ -99,47 +87,32 @@ impl Input for TriangleInput<'_> {
             primitive_index_offset: self.primitive_index_offset,
             ..Default::default()
         };
-        // SAFETY (of all blocks below): the caller promises the host data.
         if let Some(indices) = &self.indices {
+            let (format, stride) = match indices {
+                Indices::U16(_) => (sys::OptixIndicesFormat::UNSIGNED_SHORT3, size_of::<[u16; 3]>()),
+                Indices::U32(_) => (sys::OptixIndicesFormat::UNSIGNED_INT3, size_of::<[u32; 3]>()),
+            };
             array.num_index_triplets = self.primitives()?;
-            (
-                array.index_buffer,
-                array.index_format,
-                array.index_stride_in_bytes,
-            ) = match indices {
+            (array.index_format, array.index_stride_in_bytes) = (format, stride as u32);
+            array.index_buffer = match indices {
+                // SAFETY: the caller promises the host data.
+                Indices::U16(indices) => unsafe { staging.place(indices)? },
                 // SAFETY: as above.
-                Indices::U16(indices) => (
-                    unsafe { staging.place(indices)? },
-                    sys::OptixIndicesFormat::UNSIGNED_SHORT3,
-                    6,
-                ),
-                // SAFETY: as above.
-                Indices::U32(indices) => (
-                    unsafe { staging.place(indices)? },
-                    sys::OptixIndicesFormat::UNSIGNED_INT3,
-                    12,
-                ),
+                Indices::U32(indices) => unsafe { staging.place(indices)? },
             };
         }
         if let Some(matrix) = self.pre_transform {
             array.transform_format = sys::OptixTransformFormat::MATRIX_FLOAT12;
-            // SAFETY: as above. The copy is aligned to 256 bytes, more than the 16 that are asked for (B025).
+            // SAFETY: the caller promises the host data. The copy is aligned to 256 bytes, more than the 16 that are asked for (B025).
             array.pre_transform = unsafe { staging.place(&Source::host(matrix.as_slice()))? };
         }
-        // SAFETY: as above.
+        // SAFETY: the caller promises the host data.
         let (sbt_buffer, sbt_size) = unsafe { self.records.place(staging)? };
         array.num_sbt_records = to_u32(self.records.flags.len())?;
-        (
-            array.sbt_index_offset_buffer,
-            array.sbt_index_offset_size_in_bytes,
-        ) = (sbt_buffer, sbt_size);
+        (array.sbt_index_offset_buffer, array.sbt_index_offset_size_in_bytes) = (sbt_buffer, sbt_size);
         // SAFETY: as above.
         let vertices = unsafe { place_keys(staging, &self.vertices)? };
-        Ok(RawInput::triangles(
-            array,
-            vertices,
-            self.records.raw_flags(),
-        ))
+        Ok(RawInput::triangles(array, vertices, self.records.raw_flags()))
     }
 }
 
@@ -168,11 +141,7 @@ mod tests {
 
     #[test]
     fn vertex_indices_are_checked() {
-        assert!(
-            input(&TRIANGLE, Some(&[[0, 1, 2], [2, 1, 0]]))
-                .check(1)
-                .is_ok()
-        );
+        assert!(input(&TRIANGLE, Some(&[[0, 1, 2], [2, 1, 0]])).check(1).is_ok());
         let error = input(&TRIANGLE, Some(&[[0, 1, 3]])).check(1).unwrap_err();
         assert!(error.to_string().contains("vertex index 3"), "{error}");
         assert!(input(&TRIANGLE, None).check(1).is_ok());
@@ -189,13 +158,6 @@ mod tests {
         assert!(moving.check(2).is_ok());
         moving.vertices[1] = Source::host(&[]);
         assert!(moving.check(2).is_err());
-        assert!(
-            TriangleInput {
-                vertices: vec![],
-                ..input(&[], None)
-            }
-            .check(1)
-            .is_err()
-        );
+        assert!(TriangleInput { vertices: vec![], ..input(&[], None) }.check(1).is_err());
     }
 }

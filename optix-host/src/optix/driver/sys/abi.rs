@@ -15,8 +15,7 @@ use core::ffi::c_void;
 use std::ptr;
 
 use super::{
-    FunctionTable, OptixPipelineCompileOptions, OptixPipelineCompileOptionsV84, OptixResult,
-    QueryFunctionTable,
+    FunctionTable, OptixPipelineCompileOptions, OptixPipelineCompileOptionsV84, OptixResult, QueryFunctionTable,
 };
 
 /// One ABI version and how its table maps to that of ABI 105.
@@ -43,27 +42,9 @@ pub static ABIS: [Abi; 4] = [
         slots: FunctionTable::SLOTS,
         moved: &[(0, 0, FunctionTable::SLOTS)],
     },
-    Abi {
-        version: 93,
-        release: "8.1",
-        driver_branch: 555,
-        slots: 50,
-        moved: &[(0, 0, 38), (38, 40, 2)],
-    },
-    Abi {
-        version: 87,
-        release: "8.0",
-        driver_branch: 535,
-        slots: 48,
-        moved: &[(0, 0, 38), (38, 40, 2)],
-    },
-    Abi {
-        version: 84,
-        release: "7.7",
-        driver_branch: 530,
-        slots: 48,
-        moved: &[(0, 0, 38), (38, 40, 2)],
-    },
+    Abi { version: 93, release: "8.1", driver_branch: 555, slots: 50, moved: &[(0, 0, 38), (38, 40, 2)] },
+    Abi { version: 87, release: "8.0", driver_branch: 535, slots: 48, moved: &[(0, 0, 38), (38, 40, 2)] },
+    Abi { version: 84, release: "7.7", driver_branch: 530, slots: 48, moved: &[(0, 0, 38), (38, 40, 2)] },
 ];
 
 // A driver of an older ABI reads a prefix of the newer options.
@@ -86,9 +67,7 @@ const _: () = {
 ///
 /// # Safety
 /// `query` must be the driver's `optixQueryFunctionTable`.
-pub unsafe fn negotiate(
-    query: QueryFunctionTable,
-) -> Result<(FunctionTable, &'static Abi), OptixResult> {
+pub unsafe fn negotiate(query: QueryFunctionTable) -> Result<(FunctionTable, &'static Abi), OptixResult> {
     let mut last = OptixResult::UNSUPPORTED_ABI_VERSION;
     for abi in &ABIS {
         let mut raw = [ptr::null::<c_void>(); FunctionTable::SLOTS];
@@ -110,14 +89,10 @@ pub unsafe fn negotiate(
             }
             // SAFETY: the table is exactly that many pointers in slot order (asserted beside it); a null one is `None`,
             // any other is the driver's function for that slot.
-            let table = unsafe {
-                std::mem::transmute::<[*const c_void; FunctionTable::SLOTS], FunctionTable>(slots)
-            };
+            let table = unsafe { std::mem::transmute::<[*const c_void; FunctionTable::SLOTS], FunctionTable>(slots) };
             return Ok((table, abi));
         }
-        if last != OptixResult::UNSUPPORTED_ABI_VERSION
-            && last != OptixResult::FUNCTION_TABLE_SIZE_MISMATCH
-        {
+        if last != OptixResult::UNSUPPORTED_ABI_VERSION && last != OptixResult::FUNCTION_TABLE_SIZE_MISMATCH {
             break;
         }
     }
@@ -134,22 +109,14 @@ mod tests {
         c"OPTIX_TEST".as_ptr()
     }
 
-    unsafe extern "C" fn pack(
-        _: super::super::OptixProgramGroup,
-        header: *mut c_void,
-    ) -> OptixResult {
+    unsafe extern "C" fn pack(_: super::super::OptixProgramGroup, header: *mut c_void) -> OptixResult {
         // SAFETY: the test passes a pointer to 32 bytes.
         unsafe { header.cast::<u8>().write(7) };
         OptixResult::SUCCESS
     }
 
     /// A driver that serves one version only and fills slot 0 and the slot of `optixSbtRecordPackHeader`.
-    fn serve(
-        version: i32,
-        slots: usize,
-        pack_slot: usize,
-        asked: (i32, *mut c_void, usize),
-    ) -> OptixResult {
+    fn serve(version: i32, slots: usize, pack_slot: usize, asked: (i32, *mut c_void, usize)) -> OptixResult {
         let (abi_id, table, size) = asked;
         if abi_id != version {
             return OptixResult::UNSUPPORTED_ABI_VERSION;
@@ -186,12 +153,8 @@ mod tests {
 
     #[test]
     fn functions_are_found_in_the_slot_of_each_version() {
-        let drivers: [(QueryFunctionTable, i32); 4] = [
-            (driver_105, 105),
-            (driver_93, 93),
-            (driver_87, 87),
-            (driver_84, 84),
-        ];
+        let drivers: [(QueryFunctionTable, i32); 4] =
+            [(driver_105, 105), (driver_93, 93), (driver_87, 87), (driver_84, 84)];
         for (query, version) in drivers {
             // SAFETY: the function behaves as the driver's.
             let (table, abi) = unsafe { negotiate(query) }.unwrap();
@@ -201,10 +164,7 @@ mod tests {
             let mut header = [0u8; 32];
             // SAFETY: the slot holds the test's function, which takes any group.
             let result = unsafe {
-                table.sbt_record_pack_header(
-                    super::super::OptixProgramGroup::NULL,
-                    header.as_mut_ptr().cast(),
-                )
+                table.sbt_record_pack_header(super::super::OptixProgramGroup::NULL, header.as_mut_ptr().cast())
             };
             assert_eq!((result, header[0]), (OptixResult::SUCCESS, 7));
         }

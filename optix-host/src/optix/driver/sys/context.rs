@@ -4,9 +4,8 @@ use core::ffi::{c_char, c_void};
 
 /// Called by the driver with a level (1 fatal, 2 error, 3 warning, 4 print), a tag, a message and the pointer given at
 /// creation, from any thread that is inside an OptiX call.
-pub type OptixLogCallback = Option<
-    unsafe extern "C" fn(level: u32, tag: *const c_char, message: *const c_char, data: *mut c_void),
->;
+pub type OptixLogCallback =
+    Option<unsafe extern "C" fn(level: u32, tag: *const c_char, message: *const c_char, data: *mut c_void)>;
 
 abi_consts! {
     /// Which checks the driver makes at run time (guide §4.3).

@@ -5,6 +5,8 @@
 //! checked at compile time. Values that come from the driver are integers in newtypes, never Rust enums, because a
 //! newer driver may return values this file does not list.
 
+#![allow(missing_docs, reason = "fields and constants have the meaning that the API reference gives to their C names")]
+
 #[macro_use]
 mod layout;
 

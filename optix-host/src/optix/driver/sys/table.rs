@@ -4,8 +4,8 @@ use core::ffi::{c_char, c_uint, c_void};
 
 use super::*;
 
-/// The exported entry point of `libnvoptix.so.1` (guide §3.6): ABI version, three reserved arguments that are zero, the
-/// table to fill and its size in bytes.
+/// The exported entry point of `libnvoptix.so.1` (guide §3.6): ABI version, three reserved arguments that are zero,
+/// the table to fill and its size in bytes.
 pub type QueryFunctionTable = unsafe extern "C" fn(
     abi_id: i32,
     num_options: c_uint,
@@ -82,16 +82,34 @@ macro_rules! function_table {
 function_table! {
     0 get_error_name [text];
     1 get_error_string [text];
-    2 device_context_create(from: CUcontext, options: *const OptixDeviceContextOptions, context: *mut OptixDeviceContext);
+    2 device_context_create(
+        from: CUcontext,
+        options: *const OptixDeviceContextOptions,
+        context: *mut OptixDeviceContext
+    );
     3 device_context_destroy(context: OptixDeviceContext);
-    4 device_context_get_property(context: OptixDeviceContext, property: OptixDeviceProperty, value: *mut c_void, size: usize);
-    5 device_context_set_log_callback(context: OptixDeviceContext, callback: OptixLogCallback, data: *mut c_void, level: u32);
+    4 device_context_get_property(
+        context: OptixDeviceContext,
+        property: OptixDeviceProperty,
+        value: *mut c_void,
+        size: usize
+    );
+    5 device_context_set_log_callback(
+        context: OptixDeviceContext,
+        callback: OptixLogCallback,
+        data: *mut c_void,
+        level: u32
+    );
     6 device_context_set_cache_enabled(context: OptixDeviceContext, enabled: i32);
     7 device_context_set_cache_location(context: OptixDeviceContext, location: *const c_char);
     8 device_context_set_cache_database_sizes(context: OptixDeviceContext, low: usize, high: usize);
     9 device_context_get_cache_enabled(context: OptixDeviceContext, enabled: *mut i32);
     10 device_context_get_cache_location(context: OptixDeviceContext, location: *mut c_char, size: usize);
-    11 device_context_get_cache_database_sizes(context: OptixDeviceContext, low: *mut usize, high: *mut usize);
+    11 device_context_get_cache_database_sizes(
+        context: OptixDeviceContext,
+        low: *mut usize,
+        high: *mut usize
+    );
     12 module_create(
         context: OptixDeviceContext,
         module_options: *const OptixModuleCompileOptions,
@@ -123,7 +141,11 @@ function_table! {
         groups: *mut OptixProgramGroup
     );
     19 program_group_destroy(group: OptixProgramGroup);
-    20 program_group_get_stack_size(group: OptixProgramGroup, sizes: *mut OptixStackSizes, pipeline: OptixPipeline);
+    20 program_group_get_stack_size(
+        group: OptixProgramGroup,
+        sizes: *mut OptixStackSizes,
+        pipeline: OptixPipeline
+    );
     21 pipeline_create(
         context: OptixDeviceContext,
         pipeline_options: *const OptixPipelineCompileOptions,

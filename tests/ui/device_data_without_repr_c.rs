@@ -1,0 +1,8 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Clone, Copy, DeviceData)]
+pub struct Pinhole {
+    pub eye: Vec3,
+}
+
+fn main() {}

@@ -1,0 +1,8 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Clone, Copy, Element)]
+pub struct Vertex {
+    pub position: Vec3,
+}
+
+fn main() {}

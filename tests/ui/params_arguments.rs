@@ -1,0 +1,8 @@
+use optix_device_rs::prelude::*;
+
+#[launch_params(symbol = "params")]
+pub struct Frame {
+    pub count: u32,
+}
+
+fn main() {}

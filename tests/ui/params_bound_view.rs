@@ -1,0 +1,9 @@
+use optix_device_rs::prelude::*;
+
+#[launch_params]
+pub struct Frame {
+    #[bound]
+    pub world: Traversable,
+}
+
+fn main() {}

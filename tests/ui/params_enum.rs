@@ -1,0 +1,9 @@
+use optix_device_rs::prelude::*;
+
+#[launch_params]
+pub enum Frame {
+    Small,
+    Large,
+}
+
+fn main() {}

@@ -1,0 +1,6 @@
+use optix_device_rs::prelude::*;
+
+#[launch_params]
+pub struct Frame(u32);
+
+fn main() {}

@@ -1,0 +1,10 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub struct Radiance {
+    #[payload(write(caller))]
+    #[payload(read(closesthit))]
+    pub light: Vec3,
+}
+
+fn main() {}

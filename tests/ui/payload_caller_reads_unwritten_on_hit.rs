@@ -1,0 +1,9 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub struct Radiance {
+    #[payload(write(miss), read(caller))]
+    pub visible: bool,
+}
+
+fn main() {}

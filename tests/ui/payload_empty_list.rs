@@ -1,0 +1,9 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub struct Radiance {
+    #[payload(write(), read(caller))]
+    pub light: Vec3,
+}
+
+fn main() {}

@@ -1,0 +1,9 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub enum Radiance {
+    Black,
+    Light(f32),
+}
+
+fn main() {}

@@ -1,0 +1,9 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub struct Radiance {
+    #[payload(write(closesthit, miss), read(caller))]
+    pub name: &'static str,
+}
+
+fn main() {}

@@ -1,0 +1,9 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub struct Radiance<T> {
+    #[payload(write(closesthit, miss), read(caller))]
+    pub light: T,
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub struct Radiance {
+    #[payload(write(caller), read(closesthit))]
+    pub matrix: [f32; 30],
+    #[payload(write(closesthit, miss), read(caller))]
+    pub light: Vec3,
+}
+
+fn main() {}

@@ -1,0 +1,6 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub struct Radiance(Vec3);
+
+fn main() {}

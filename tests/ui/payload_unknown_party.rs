@@ -1,0 +1,9 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub struct Radiance {
+    #[payload(write(raygen, closest_hit), read(wombat))]
+    pub light: Vec3,
+}
+
+fn main() {}

@@ -1,0 +1,13 @@
+mod common;
+use common::*;
+
+pipeline! {
+    pub struct PathTracer {
+        params: Frame,
+        raygen: [camera],
+        rays: { Radiance { miss: sky, closesthit: lambert }, Shadow { miss: lit } },
+        hitgroups: { Lambert on Triangles => { Radiance { closesthit: lambert }, Shadow {} } },
+    }
+}
+
+fn main() {}

@@ -1,0 +1,10 @@
+mod common;
+use common::*;
+
+pipeline! {
+    pub struct PathTracer<T> {
+        params: Frame,
+    }
+}
+
+fn main() {}

@@ -1,0 +1,12 @@
+mod common;
+use common::*;
+
+pipeline! {
+    pub struct PathTracer {
+        params: Frame,
+        rays: { Radiance { miss: sky }, Shadow { miss: lit } },
+        hitgroups: { Lambert on Triangles => { Radiance { closesthit: lambert }, Shadow {} } },
+    }
+}
+
+fn main() {}

@@ -1,0 +1,8 @@
+mod common;
+use common::*;
+
+pipeline! {
+    params: Frame,
+}
+
+fn main() {}

@@ -1,0 +1,16 @@
+mod common;
+use common::*;
+
+#[raygen]
+pub fn noise<P: Pipeline>(_: &RayGen<P>) {}
+
+pipeline! {
+    pub struct PathTracer {
+        params: Lambert,
+        raygen: [noise],
+        rays: { Radiance { miss: sky }, Shadow { miss: lit } },
+        hitgroups: { Lambert on Triangles => { Radiance { closesthit: lambert }, Shadow {} } },
+    }
+}
+
+fn main() {}

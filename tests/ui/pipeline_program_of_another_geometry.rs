@@ -1,0 +1,18 @@
+mod common;
+use common::*;
+
+pipeline! {
+    pub struct PathTracer {
+        params: Frame,
+        raygen: [camera],
+        rays: { Radiance { miss: sky }, Shadow { miss: lit } },
+        hitgroups: {
+            Ball on Custom => {
+                Radiance { intersection: cube, closesthit: ball_shade },
+                Shadow { intersection: cube },
+            },
+        },
+    }
+}
+
+fn main() {}

@@ -1,0 +1,8 @@
+use optix_device_rs::prelude::*;
+
+#[raygen]
+pub fn camera<P: Pipeline>(rg: RayGen<P>) {
+    let _ = rg;
+}
+
+fn main() {}

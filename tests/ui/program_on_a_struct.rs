@@ -1,0 +1,6 @@
+use optix_device_rs::prelude::*;
+
+#[closesthit]
+pub struct Shade;
+
+fn main() {}

@@ -1,0 +1,22 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub struct Radiance {
+    #[payload(write(closesthit, miss), read(caller))]
+    pub light: Vec3,
+    #[payload(write(caller, closesthit), read(closesthit, caller))]
+    pub rng: Pcg32,
+}
+
+#[derive(Clone, Copy, SbtRecord)]
+#[repr(C)]
+pub struct Lambert {
+    pub albedo: Vec3,
+}
+
+#[miss]
+pub fn sky<P: Pipeline>(ms: &Miss<P>, record: &Lambert, ray: RadianceAtMiss, depth: u32) -> RadianceFromMiss {
+    todo!()
+}
+
+fn main() {}

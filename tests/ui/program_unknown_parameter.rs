@@ -1,0 +1,8 @@
+use optix_device_rs::prelude::*;
+
+#[closesthit]
+pub fn shade<P: Pipeline, T: Default>(_: &ClosestHit<P, Triangles>) {
+    let _ = T::default();
+}
+
+fn main() {}

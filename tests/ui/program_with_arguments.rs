@@ -1,0 +1,6 @@
+use optix_device_rs::prelude::*;
+
+#[closesthit(Radiance)]
+pub fn shade<P: Pipeline>(_: &ClosestHit<P, Triangles>) {}
+
+fn main() {}

@@ -1,0 +1,8 @@
+use optix_device_rs::prelude::*;
+
+#[closesthit]
+pub fn shade<P: Pipeline>(hit: &AnyHit<P, Triangles>) {
+    let _ = hit;
+}
+
+fn main() {}

@@ -1,0 +1,9 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Clone, Copy, SbtRecord)]
+#[repr(C)]
+pub struct Lambert<T> {
+    pub albedo: T,
+}
+
+fn main() {}

@@ -1,0 +1,9 @@
+use optix_device_rs::prelude::*;
+
+#[derive(SbtRecord)]
+#[repr(C)]
+pub struct Lambert {
+    pub albedo: Vec3,
+}
+
+fn main() {}

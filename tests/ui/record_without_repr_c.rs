@@ -1,0 +1,8 @@
+use optix_device_rs::prelude::*;
+
+#[derive(Clone, Copy, SbtRecord)]
+pub struct Lambert {
+    pub albedo: Vec3,
+}
+
+fn main() {}
