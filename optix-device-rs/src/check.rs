@@ -4,7 +4,6 @@
 
 use crate::payload::{Part, Payload};
 use crate::ray::{Ray, Traversable};
-use crate::view::Element;
 
 // ---- Payload parts -------------------------------------------------------------------------------------------------
 
@@ -104,21 +103,6 @@ pub const fn same_hits<A: SameHits<B>, B>() {}
 pub const fn nothing_to_write<T: crate::payload::NothingToWrite>() {}
 
 // ---- Layout --------------------------------------------------------------------------------------------------------
-
-/// A field of a `#[derive(Element)]` struct.
-pub trait ElementField {
-    /// Bytes.
-    const SIZE: usize;
-    /// [`write_to`](crate::data::DeviceData::write_to).
-    fn write_element(&self, bytes: &mut [u8]);
-}
-impl<T: Element> ElementField for T {
-    const SIZE: usize = size_of::<T>();
-    #[inline(always)]
-    fn write_element(&self, bytes: &mut [u8]) {
-        self.write_to(bytes);
-    }
-}
 
 // Owners of arrays of views: textures of a material, say.
 #[cfg(not(target_arch = "nvptx64"))]

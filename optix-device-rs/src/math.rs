@@ -47,6 +47,32 @@ math! {
     mul_add(a, b) => fmaf;
 }
 
+/// Sine and cosine of `turns` full turns, for |turns| up to 2^20: within 1.5e-7 of the true value, on both machines.
+///
+/// Sampling wants fractions of a turn, whose reduction to a quarter turn is exact in `f32`; so no call for large angles is in
+/// the code, as there is for [`Math::sin`]. The polynomials are least-squares fits at Chebyshev nodes.
+///
+/// ```
+/// let (sin, cos) = optix_device_rs::math::sin_cos_turns(0.125);
+/// assert!((sin - 0.5f32.sqrt()).abs() < 1e-7 && (cos - sin).abs() < 1e-7);
+/// ```
+#[inline(always)]
+pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
+    let quarters = Math::floor(turns * 4.0 + 0.5);
+    let r = turns * 4.0 - quarters; // -0.5 to 0.5, exact
+    let z = r * r;
+    let sin = r
+        * (1.570_796_4
+            + z * (-0.645_964_1 + z * (0.079_692_58 + z * (-0.004_681_266_4 + z * 0.000_158_206_53))));
+    let cos = 1.0 + z * (-1.233_700_5 + z * (0.253_669_23 + z * (-0.020_860_264 + z * 0.000_903_975_45)));
+    match quarters as i32 & 3 {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
 /// An orthonormal basis around a unit vector (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1)).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Onb {
@@ -76,5 +102,34 @@ impl Onb {
     #[inline(always)]
     pub fn to_world(&self, local: Vec3) -> Vec3 {
         self.tangent * local.x + self.bitangent * local.y + self.normal * local.z
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_are_within_their_bound() {
+        let mut worst = 0.0f64;
+        for i in 0..4_000_000 {
+            let turns = (i - 1_000_000) as f32 / 1_048_576.0;
+            let (sin, cos) = sin_cos_turns(turns);
+            let (s, c) = (f64::from(turns) * core::f64::consts::TAU).sin_cos();
+            worst = worst.max((f64::from(sin) - s).abs()).max((f64::from(cos) - c).abs());
+        }
+        assert!(worst < 1.5e-7, "{worst}");
+    }
+
+    #[test]
+    fn bases_are_orthonormal_also_near_the_poles() {
+        for n in [Vec3::Z, Vec3::NEG_Z, Vec3::new(1e-4, 0.0, -1.0).normalize(), Vec3::new(0.6, -0.48, 0.64)] {
+            let Onb { tangent, bitangent, normal } = Onb::around(n);
+            for dot in [tangent.dot(bitangent), tangent.dot(normal), bitangent.dot(normal)] {
+                assert!(dot.abs() < 1e-6, "{n}");
+            }
+            assert!((tangent.length() - 1.0).abs() < 1e-6 && (bitangent.length() - 1.0).abs() < 1e-6);
+            assert!((tangent.cross(bitangent) - normal).length() < 1e-6);
+        }
     }
 }

@@ -27,6 +27,17 @@ impl Pcg32 {
         Self { state: state.wrapping_mul(Self::MULTIPLIER).wrapping_add(increment), increment }
     }
 
+    /// The generator for item `index` (a pixel's sample, say) of a family chosen by `seed`.
+    ///
+    /// The index is hashed (SplitMix64's finaliser, Steele et al. 2014), since sequences whose seeds differ in a few bits
+    /// begin alike.
+    #[inline(always)]
+    pub const fn hashed(index: u64, seed: u64) -> Self {
+        let z = (index ^ (index >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        Self::new(z ^ (z >> 31), seed)
+    }
+
     /// The next 32 bits.
     #[inline(always)]
     pub const fn next_u32(&mut self) -> u32 {

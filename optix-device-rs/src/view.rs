@@ -19,7 +19,17 @@ use glam::UVec2;
     label = "not plain data",
     note = "use numbers, glam vectors, arrays of these, or `#[derive(Element)]` with `#[repr(C)]` on your struct of these"
 )]
-pub unsafe trait Element: DeviceData {}
+pub unsafe trait Element: DeviceData {
+    /// The size, where only an element will do; for the derive.
+    #[doc(hidden)]
+    const SIZE: usize = size_of::<Self>();
+    /// [`DeviceData::write_to`], where only an element will do; for the derive.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn write_element(&self, bytes: &mut [u8]) {
+        self.write_to(bytes);
+    }
+}
 
 macro_rules! element {
     ($($ty:ty),*) => {$(

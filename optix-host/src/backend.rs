@@ -14,6 +14,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(crate) trait Backend: Send + Sync {
     /// Unique in the process.
     fn id(&self) -> DeviceId;
+    /// Takes what the machine complained about since the last call.
+    fn take_complaints(&self) -> Vec<String>;
     /// Allocates zeroed memory.
     fn allocate(&self, bytes: usize) -> Result<Arc<dyn Memory>>;
     /// Builds a geometry acceleration structure.

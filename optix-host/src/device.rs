@@ -75,6 +75,11 @@ impl Device {
         &self.description
     }
 
+    /// Takes the warnings and errors that the driver logged since the last call; in validation mode, what it found.
+    pub fn take_complaints(&self) -> Vec<String> {
+        self.backend.take_complaints()
+    }
+
     /// A buffer that holds `elements`.
     pub fn buffer<T: Element>(&self, elements: &[T]) -> Result<Buffer<T>> {
         let buffer = self.zeroed(elements.len())?;

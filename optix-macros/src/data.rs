@@ -1,19 +1,18 @@
 //! `DeviceData`, with the host twin of structs that hold views.
 
 use crate::shape::{Form, Struct, construct};
-use crate::support::{Errors, allow, docs};
+use crate::support::{Errors, allow, docs, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
-use syn::spanned::Spanned;
 use syn::{DeriveInput, Ident};
 
 /// `#[derive(DeviceData)]`.
 pub fn derive(input: &DeriveInput) -> TokenStream {
     let mut errors = Errors::default();
-    let Some(model) = Struct::parse(input, "device data", true, &mut errors) else {
+    let Some(model) = Struct::parse(input, "a device-data struct", true, &mut errors) else {
         return errors.into_tokens();
     };
-    model.require_repr_c("device data", &mut errors);
+    model.require_repr_c("a device-data struct", &mut errors);
     let data = device_data(&model);
     let twin = twin(&model, &mut errors);
     let items = twin.items;
@@ -26,23 +25,26 @@ pub fn device_data(model: &Struct) -> TokenStream {
     let (krate, ident, allow) = (&model.krate, &model.ident, allow());
     let writes = model.fields.iter().map(|field| {
         let (member, ty) = (&field.member, &field.ty);
+        let span = place_of(ty);
+        let krate = moved(krate, span);
         let write = if field.view {
-            quote_spanned!(ty.span()=> <#ty as #krate::data::DeviceData>::write_to)
+            quote_spanned!(span=> <#ty as #krate::data::DeviceData>::write_to)
         } else {
-            quote_spanned!(ty.span()=> <#ty as #krate::data::Plain>::write_plain)
+            quote_spanned!(span=> <#ty as #krate::data::Plain>::write_plain)
         };
         quote! {{
             const __AT: usize = ::core::mem::offset_of!(#ident, #member);
-            #write(&self.#member, &mut __bytes[__AT..__AT + ::core::mem::size_of::<#ty>()]);
+            let __field = self.#member;
+            #write(&__field, &mut __bytes[__AT..__AT + ::core::mem::size_of::<#ty>()]);
         }}
     });
-    let touch = touch(model);
+    let (touch, copy) = (touch(model), copy_bound(ident));
     quote! {
         #allow
         const _: () = {
             // SAFETY: the layout is C's, each field has a layout that host and device share, and padding is not written.
             #[automatically_derived]
-            unsafe impl #krate::data::DeviceData for #ident {
+            unsafe impl #krate::data::DeviceData for #ident #copy {
                 #[inline]
                 fn write_to(&self, __bytes: &mut [u8]) {
                     #(#writes)*
@@ -51,6 +53,12 @@ pub fn device_data(model: &Struct) -> TokenStream {
             #touch
         };
     }
+}
+
+/// The traits need `Copy`; where it is missing this bound makes all impls fail with one message.
+pub fn copy_bound(ident: &Ident) -> TokenStream {
+    let span = place_of(ident);
+    quote_spanned!(span=> where #ident: ::core::marker::Copy)
 }
 
 /// Uses every field, so that no lint calls a struct or field dead that only the other machine reads.
@@ -79,14 +87,15 @@ pub struct Twin {
 pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
     let (krate, ident, vis, allow) = (&model.krate, &model.ident, &model.vis, allow());
     if !model.has_views() {
+        let copy = copy_bound(ident);
         let items = quote! {
             #allow
             const _: () = {
                 #[automatically_derived]
-                impl #krate::data::Plain for #ident {}
+                impl #krate::data::Plain for #ident #copy {}
                 #[cfg(not(target_arch = "nvptx64"))]
                 #[automatically_derived]
-                impl #krate::host::Twin for #ident {
+                impl #krate::host::Twin for #ident #copy {
                     type Device = #ident;
                     #[inline]
                     fn lower(&self, _: &mut #krate::host::KeepAlive) -> #ident {
@@ -109,25 +118,30 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
         let (vis, member, ty) = (&field.vis, &field.member, &field.ty);
         let docs = docs_or(&field.attrs, || format!("Field `{}` of [`{}`].", field.name(), model.name()));
         let ty = if field.view {
-            quote_spanned!(ty.span()=> <#ty as #krate::host::View>::Owner)
+            let span = place_of(ty);
+            let krate = moved(krate, span);
+            quote_spanned!(span=> <#ty as #krate::host::View>::Owner)
         } else {
             quote!(#ty)
         };
         quote!(#docs #vis #member: #ty)
     });
     let clones: Vec<_> = model.fields.iter().map(|field| {
-        let (member, ty) = (&field.member, &field.ty);
+        let member = &field.member;
         if field.view {
             quote!(::core::clone::Clone::clone(&self.#member))
         } else {
-            quote_spanned!(ty.span()=> self.#member)
+            quote!(self.#member)
         }
     }).collect();
     let clone = construct(&host, &model.fields, &clones);
     let lowered: Vec<_> = model.fields.iter().map(|field| {
         let (member, ty) = (&field.member, &field.ty);
         if field.view {
-            quote_spanned!(ty.span()=> <#ty as #krate::host::View>::of(&self.#member, __keep))
+            let span = place_of(ty);
+            let krate = moved(krate, span);
+            let of = quote_spanned!(span=> <#ty as #krate::host::View>::of);
+            quote!(#of(&self.#member, __keep))
         } else {
             quote!(self.#member)
         }

@@ -2,11 +2,10 @@
 
 use crate::data::touch;
 use crate::shape::Struct;
-use crate::support::{Errors, allow};
+use crate::support::{Errors, allow, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use syn::DeriveInput;
-use syn::spanned::Spanned;
 
 pub fn derive(input: &DeriveInput) -> TokenStream {
     let mut errors = Errors::default();
@@ -18,19 +17,28 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     let (krate, ident, allow, name) = (&model.krate, &model.ident, allow(), model.name());
     let writes = model.fields.iter().map(|field| {
         let (member, ty) = (&field.member, &field.ty);
-        let write = quote_spanned!(ty.span()=> #krate::check::write_element::<#ty>);
+        let span = place_of(ty);
+        let krate = moved(krate, span);
+        let write = quote_spanned!(span=> <#ty as #krate::view::Element>::write_element);
         quote! {{
             const __AT: usize = ::core::mem::offset_of!(#ident, #member);
-            #write(&self.#member, &mut __bytes[__AT..__AT + ::core::mem::size_of::<#ty>()]);
+            let __field = self.#member;
+            #write(&__field, &mut __bytes[__AT..__AT + ::core::mem::size_of::<#ty>()]);
         }}
     });
-    let types = model.fields.iter().map(|f| &f.ty);
-    let no_padding = (!broken).then(|| quote_spanned! {ident.span()=>
-        const _: () = #krate::check::no_padding(
-            #name,
-            ::core::mem::size_of::<#ident>(),
-            0 #(+ ::core::mem::size_of::<#types>())*,
-        );
+    let sizes = model.fields.iter().map(|field| {
+        let ty = &field.ty;
+        let span = place_of(ty);
+        let krate = moved(krate, span);
+        quote_spanned!(span=> <#ty as #krate::view::Element>::SIZE)
+    });
+    let no_padding = (!broken).then(|| {
+        let span = place_of(ident);
+        let check = quote_spanned!(span=> check::no_padding);
+        let krate = moved(krate, span);
+        quote_spanned! {span=>
+            const _: () = #krate::#check(#name, ::core::mem::size_of::<#ident>(), 0 #(+ #sizes)*);
+        }
     });
     let touch = touch(&model);
     let errors = errors.into_tokens();

@@ -4,7 +4,7 @@ use crate::data::{device_data, docs_or, twin};
 use crate::shape::{Field, Repr, Struct};
 use crate::support::{Errors, allow, crate_argument, name, place};
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote, quote_spanned};
+use quote::{format_ident, quote};
 use syn::spanned::Spanned;
 use syn::{DeriveInput, Ident, Item, ItemStruct, Member};
 
@@ -24,7 +24,7 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
             return quote!(#errors #item);
         }
     };
-    let model = Struct::parse(&DeriveInput::from(item.clone()), "launch parameters", false, &mut errors);
+    let model = Struct::parse(&DeriveInput::from(item.clone()), "a launch-parameter struct", false, &mut errors);
     strip(&mut item);
     let Some(mut model) = model else {
         let errors = errors.into_tokens();
@@ -146,9 +146,7 @@ fn view(model: &Struct) -> TokenStream {
     let methods = model.fields.iter().map(|field| {
         let (vis, member, ty) = (&field.vis, &field.member, &field.ty);
         let docs = docs_or(&field.attrs, || format!("Field `{}` of [`{}`].", field.name(), model.name()));
-        let load = quote_spanned!(ty.span()=> #krate::machine::load_param::<
-            #ident, #ty, { ::core::mem::offset_of!(#ident, #member) }
-        >);
+        let load = quote!(#krate::machine::load_param::<#ident, #ty, { ::core::mem::offset_of!(#ident, #member) }>);
         quote! {
             #docs
             #[inline(always)]

@@ -1,8 +1,8 @@
 //! `#[derive(SbtRecord)]`.
 
-use crate::data::{device_data, twin};
+use crate::data::{copy_bound, device_data, twin};
 use crate::shape::Struct;
-use crate::support::{Errors, allow};
+use crate::support::{Errors, allow, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use syn::DeriveInput;
@@ -17,9 +17,12 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     let data = device_data(&model);
     let twin = twin(&model, &mut errors);
     let (host, items) = (twin.host, twin.items);
-    let align = quote_spanned! {ident.span()=>
-        const _: () = #krate::check::record_align(#name, ::core::mem::align_of::<#ident>());
+    let span = place_of(ident);
+    let moved = moved(krate, span);
+    let align = quote_spanned! {span=>
+        const _: () = #moved::check::record_align(#name, ::core::mem::align_of::<#ident>());
     };
+    let copy = copy_bound(ident);
     let errors = errors.into_tokens();
     quote! {
         #errors
@@ -29,7 +32,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
         const _: () = {
             #align
             #[automatically_derived]
-            impl #krate::record::SbtRecord for #ident {
+            impl #krate::record::SbtRecord for #ident #copy {
                 const NAME: &'static str = #name;
                 #[cfg(not(target_arch = "nvptx64"))]
                 type Host = #host;

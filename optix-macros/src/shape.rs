@@ -59,6 +59,20 @@ fn is_view(ty: &Type) -> bool {
     }
 }
 
+/// Whether the type is plain data by its name.
+fn is_plain(ty: &Type) -> bool {
+    const PLAIN: [&str; 29] = [
+        "u8", "i8", "u16", "i16", "u32", "i32", "u64", "i64", "f32", "f64", "bool", "usize", "isize", "Vec2", "Vec3",
+        "Vec3A", "Vec4", "UVec2", "UVec3", "UVec4", "IVec2", "IVec3", "IVec4", "Quat", "Mat3", "Mat4", "Affine3A", "char",
+        "str",
+    ];
+    match ungroup(ty) {
+        Type::Path(path) => path.path.segments.last().is_some_and(|s| PLAIN.iter().any(|p| s.ident == p)),
+        Type::Array(array) => is_plain(&array.elem),
+        _ => false,
+    }
+}
+
 impl Struct {
     /// Reads a struct. `what` is what it is to become: "a payload", "an SBT record".
     pub fn parse(input: &DeriveInput, what: &str, tuples: bool, errors: &mut Errors) -> Option<Self> {
@@ -134,7 +148,11 @@ impl Field {
             }
             Some(attribute.span())
         };
-        let view = flag("view", errors).is_some();
+        let mut view = flag("view", errors).is_some();
+        if view && is_plain(&field.ty) {
+            errors.at(&field.ty, "`#[view]` is for views of device memory; this is plain data: remove it");
+            view = false;
+        }
         let bound = flag("bound", errors);
         let member = match &field.ident {
             Some(ident) => Member::Named(ident.clone()),

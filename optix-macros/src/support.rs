@@ -1,8 +1,9 @@
 //! What every macro needs: the path of the device crate, errors as values, names.
 
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Group, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::ext::IdentExt;
+use syn::spanned::Spanned;
 use syn::{Attribute, Error, Ident, Path, Type};
 
 /// Errors of one expansion, all reported at once.
@@ -79,6 +80,31 @@ pub fn crate_of(attributes: &[Attribute], errors: &mut Errors) -> Path {
         errors.keep(result);
     }
     path
+}
+
+/// Where `tokens` are, for generated code that an error should point to. Names resolve as in the macro's own output.
+pub fn place_of(tokens: &impl Spanned) -> Span {
+    tokens.span().resolved_at(Span::call_site())
+}
+
+/// The tokens, all of them at `span`: an error in a path points to its first and last token.
+pub fn moved(tokens: &impl ToTokens, span: Span) -> TokenStream {
+    fn at(stream: TokenStream, span: Span) -> TokenStream {
+        stream
+            .into_iter()
+            .map(|mut token| {
+                match &token {
+                    TokenTree::Group(group) => token = Group::new(group.delimiter(), at(group.stream(), span)).into(),
+                    // Its span says which crate it means.
+                    TokenTree::Ident(ident) if ident == "$crate" => return token,
+                    _ => {}
+                }
+                token.set_span(span);
+                token
+            })
+            .collect()
+    }
+    at(tokens.to_token_stream(), span)
 }
 
 /// The name without `r#`.

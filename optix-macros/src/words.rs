@@ -2,11 +2,10 @@
 
 use crate::data::touch;
 use crate::shape::{Struct, construct};
-use crate::support::{Errors, allow};
+use crate::support::{Errors, allow, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
 use syn::DeriveInput;
-use syn::spanned::Spanned;
 
 /// Where each field's words begin.
 struct Places {
@@ -26,11 +25,13 @@ fn places(model: &Struct) -> Places {
         if i == 0 {
             consts.extend(quote!(const __AT_0: usize = 0;));
         }
-        let count = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::COUNT);
+        let span = place_of(ty);
+        let krate = moved(krate, span);
+        let count = quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT);
         consts.extend(quote!(const #next: usize = #at + #count;));
-        let store = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::store);
+        let store = quote_spanned!(span=> <#ty as #krate::words::Words>::store);
         stores.push(quote!(#store(self.#member, __words, __at + #at);));
-        let load = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::load);
+        let load = quote_spanned!(span=> <#ty as #krate::words::Words>::load);
         loads.push(quote!(#load(__words, __at + #at)));
     }
     let end = format_ident!("__AT_{}", model.fields.len());
@@ -80,7 +81,9 @@ pub fn derive_attributes(input: &DeriveInput) -> TokenStream {
     };
     let (krate, ident, allow, name) = (&model.krate, &model.ident, allow(), model.name());
     let Places { consts, stores, load } = places(&model);
-    let check = quote_spanned!(ident.span()=> const _: () = #krate::check::attribute_words(#name, __END););
+    let span = place_of(ident);
+    let moved = moved(krate, span);
+    let check = quote_spanned!(span=> const _: () = #moved::check::attribute_words(#name, __END););
     let touch = touch(&model);
     let errors = errors.into_tokens();
     quote! {

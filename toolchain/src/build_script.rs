@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::compiler;
 use crate::device_build::{self, Built};
 use crate::error::{Doing, Error};
 use crate::options::Shaders;
@@ -31,16 +32,11 @@ fn try_compile(shaders: &Shaders) -> Result<(), Error> {
         }
         Err(error @ (Error::NoDeviceCompiler { .. } | Error::SwitchedOff)) => {
             println!("cargo::warning=shaders run on the CPU only: {error}");
-            // A file that does not exist counts as changed, so the next build looks again.
-            rerun_if_changed(&out_dir.join("no-device-compiler"));
+            compiler::installation_records().iter().for_each(|record| rerun_if_changed(record));
             let (package, _) = device_build::shader_crate(&shaders.path)?;
             (package.library.unwrap_or(package.name), String::new())
         }
-        Err(error) => {
-            // Nothing is known of the crate's files; what was fixed outside of it must be noticed too.
-            rerun_if_changed(&out_dir.join("device-build-failed"));
-            return Err(error);
-        }
+        Err(error) => return Err(error),
     };
     let ptx = out_dir.join(format!("{name}.ptx"));
     std::fs::write(&ptx, text).doing(|| format!("cannot write {}", ptx.display()))?;

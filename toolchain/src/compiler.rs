@@ -218,12 +218,26 @@ fn chosen() -> Option<PathBuf> {
     std::env::var_os("OPTIX_RUSTC").filter(|rustc| !rustc.is_empty()).map(PathBuf::from)
 }
 
+/// Files and small folders that change when a compiler or its sources are installed: what a build without a device
+/// compiler depends on. (Naming the missing file itself would make cargo rebuild the program every time.)
+pub(crate) fn installation_records() -> Vec<PathBuf> {
+    let mut records = vec![PathBuf::from("/var/lib/dpkg/status")];
+    records.extend(rustup_home().map(|home| home.join("update-hashes")));
+    let candidates = Candidate::all();
+    let roots = candidates.iter().filter_map(|candidate| candidate.rustc.parent()?.parent());
+    records.extend(roots.map(|root| root.join("lib/rustlib/components")));
+    records.retain(|record| record.exists());
+    records
+}
+
+fn rustup_home() -> Option<PathBuf> {
+    let home = std::env::var_os("RUSTUP_HOME").map(PathBuf::from);
+    home.or_else(|| std::env::home_dir().map(|home| home.join(".rustup")))
+}
+
 /// The compilers of the installed rustup toolchains. The real programs, not rustup's proxies: those may download.
 fn rustup_toolchains() -> Vec<PathBuf> {
-    let home = std::env::var_os("RUSTUP_HOME")
-        .map(PathBuf::from)
-        .or_else(|| std::env::home_dir().map(|home| home.join(".rustup")));
-    let Some(toolchains) = home.and_then(|home| std::fs::read_dir(home.join("toolchains")).ok()) else {
+    let Some(toolchains) = rustup_home().and_then(|home| std::fs::read_dir(home.join("toolchains")).ok()) else {
         return Vec::new();
     };
     let mut roots: Vec<PathBuf> = toolchains.flatten().map(|entry| entry.path()).collect();

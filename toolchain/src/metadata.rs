@@ -76,7 +76,8 @@ impl Workspace {
         command.args(["metadata", "--quiet", "--format-version", "1"]).args(args);
         // The caller wants to know where its own builds go.
         for name in ["CARGO_TARGET_DIR", "CARGO_BUILD_TARGET_DIR"] {
-            command.envs(std::env::var_os(name).map(|dir| (name, dir)));
+            let dir = std::env::var_os(name).and_then(|dir| std::path::absolute(dir).ok());
+            command.envs(dir.map(|dir| (name, dir)));
         }
         let text = cargo::read(&mut command, &format!("reading the manifests in {}", dir.display()))?;
         let bad = |reason: String| Error::Output { of: "cargo metadata".into(), reason };

@@ -70,6 +70,9 @@ fn a_program_with_shaders() {
     assert_eq!(err.matches("warning:").count(), 1, "{err}");
     assert!(err.contains("shaders run on the CPU only"), "{err}");
 
+    let again = cargo(&dir, &["build", "--verbose"], Some("none"));
+    assert!(text(&again.stderr).contains("Fresh host"), "{}", text(&again.stderr));
+
     // A chosen compiler that can't do it is an error, not a warning.
     let run = cargo(&dir, &["build"], Some("/nonexistent/rustc"));
     assert!(!run.status.success());

@@ -54,7 +54,7 @@ fn run(args: &Args) -> Result<(), Box<dyn Error>> {
 
     let (width, height) = (args.size.width, args.size.height);
     let cornell = Cornell::new(&device, &mesh, width as f32 / height as f32)?;
-    let settings = Settings { size: [width, height], bounces: args.bounces, seed: args.seed as u32 };
+    let settings = Settings { size: [width, height], bounces: args.bounces, seed: args.seed };
     let mut render = Render::new(&device, &cornell, settings)?;
     if args.explain {
         print!("{}", render.explain());
@@ -78,7 +78,7 @@ fn run(args: &Args) -> Result<(), Box<dyn Error>> {
     progress.finish();
 
     let image = Image { width, height, pixels: render.moments().mean_image() };
-    image.write(&args.out, 1.0)?;
+    image.write(&args.out, 0.0)?;
     let title = format!("{width}x{height}, {}", device.description());
     for (path, format) in &checked.reports {
         match format {

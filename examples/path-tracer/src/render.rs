@@ -32,7 +32,7 @@ pub struct Settings {
     /// How many times a path may bounce.
     pub bounces: u32,
     /// Chooses the random sequences.
-    pub seed: u32,
+    pub seed: u64,
 }
 
 impl Render {

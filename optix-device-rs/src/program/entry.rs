@@ -1,75 +1,71 @@
-//! The bodies of entry points: `pipeline!` makes one call to one of these for each program, on either machine.
-//!
-//! They take the program as a function, not as a type with a bound, so that a program that does not fit is reported once,
-//! with its own message.
+//! The two halves of an entry point, around the call of the program: `pipeline!` writes that call itself, on either
+//! machine, so that a program that does not fit is reported once and with its own message.
 
 use super::*;
 use crate::payload::Part;
 use crate::pipeline::HasRay;
 
+/// What a ray-generation program gets.
+///
 /// # Safety
-/// `cx` is of a ray-generation program whose record is the program's.
+/// `cx` is of a ray-generation program whose record is a `Rec`.
 #[inline(always)]
-pub unsafe fn raygen<P: Pipeline, Rec: SbtRecord>(cx: Cx, run: impl Fn(&RayGen<P>, &Rec)) -> Decision {
+pub unsafe fn raygen<P: Pipeline, Rec: SbtRecord>(cx: &Cx) -> (RayGen<P>, &Rec) {
     // SAFETY: the caller's.
-    run(&RayGen::new(cx), unsafe { record::<Rec>(&cx) });
+    (RayGen::new(*cx), unsafe { record::<Rec>(cx) })
+}
+
+/// What a miss program gets.
+///
+/// # Safety
+/// `cx` is of a miss program whose record is a `Rec`.
+#[inline(always)]
+pub unsafe fn miss<P: HasRay<R>, R: Payload, Rec: SbtRecord>(cx: &Cx) -> (Miss<P>, &Rec, R::AtMiss) {
+    let input = take::<P, R, R::AtMiss>(cx);
+    // SAFETY: the caller's.
+    (Miss::new(*cx), unsafe { record::<Rec>(cx) }, input)
+}
+
+macro_rules! hit_entries {
+    ($($name:ident: $context:ident, $part:ident, $what:literal;)*) => {$(
+        #[doc = concat!("What ", $what, " program gets.")]
+        ///
+        /// # Safety
+        #[doc = concat!("`cx` is of ", $what, " program whose record is a `Rec` and whose hits are `A`.")]
+        #[inline(always)]
+        pub unsafe fn $name<P: HasRay<R>, A, Rec: SbtRecord, R: Payload>(cx: &Cx) -> ($context<P, A>, &Rec, R::$part) {
+            let input = take::<P, R, R::$part>(cx);
+            // SAFETY: the caller's.
+            ($context::new(*cx), unsafe { record::<Rec>(cx) }, input)
+        }
+    )*};
+}
+hit_entries! {
+    closesthit: ClosestHit, AtClosestHit, "a closest-hit";
+    anyhit: AnyHit, AtAnyHit, "an any-hit";
+    intersection: Intersection, AtIntersection, "an intersection";
+}
+
+/// The part of the payload that the program receives.
+#[inline(always)]
+fn take<P: HasRay<R>, R: Payload, T: Part>(cx: &Cx) -> T {
+    cx.set_payload_type(P::PAYLOAD_TYPE);
+    T::load(&cx.payload(T::MASK))
+}
+
+/// Puts what the program returned into the payload.
+#[inline(always)]
+pub fn give<T: Part>(cx: &Cx, part: T) -> Decision {
+    let mut words = WordBuffer::ZERO;
+    part.store(&mut words);
+    cx.set_payload(T::MASK, &words);
     Decision::Accept
 }
 
-/// # Safety
-/// `cx` is of a miss program whose record is the program's.
+/// Puts what an any-hit program returned into the payload and does what it decided.
 #[inline(always)]
-pub unsafe fn miss<P: HasRay<R>, R: Payload, Rec: SbtRecord>(
-    cx: Cx,
-    run: impl Fn(&Miss<P>, &Rec, R::AtMiss) -> R::FromMiss,
-) -> Decision {
-    cx.set_payload_type(P::PAYLOAD_TYPE);
-    let input = R::AtMiss::load(&cx.payload(R::AtMiss::MASK));
-    // SAFETY: the caller's.
-    let output = run(&Miss::new(cx), unsafe { record::<Rec>(&cx) }, input);
-    give(&cx, output);
-    Decision::Accept
-}
-
-/// # Safety
-/// `cx` is of a closest-hit program whose record is a `Rec` and whose hits are `A`.
-#[inline(always)]
-pub unsafe fn closesthit<P, A, Rec, R>(
-    cx: Cx,
-    run: impl Fn(&ClosestHit<P, A>, &Rec, R::AtClosestHit) -> R::FromClosestHit,
-) -> Decision
-where
-    P: HasRay<R>,
-    A: Attributes,
-    Rec: SbtRecord,
-    R: Payload,
-{
-    cx.set_payload_type(P::PAYLOAD_TYPE);
-    let input = R::AtClosestHit::load(&cx.payload(R::AtClosestHit::MASK));
-    // SAFETY: the caller's.
-    let output = run(&ClosestHit::new(cx), unsafe { record::<Rec>(&cx) }, input);
-    give(&cx, output);
-    Decision::Accept
-}
-
-/// # Safety
-/// `cx` is of an any-hit program whose record is a `Rec` and whose hits are `A`.
-#[inline(always)]
-pub unsafe fn anyhit<P, A, Rec, R>(
-    cx: Cx,
-    run: impl Fn(&AnyHit<P, A>, &Rec, R::AtAnyHit) -> (Decision, R::FromAnyHit),
-) -> Decision
-where
-    P: HasRay<R>,
-    A: Attributes,
-    Rec: SbtRecord,
-    R: Payload,
-{
-    cx.set_payload_type(P::PAYLOAD_TYPE);
-    let input = R::AtAnyHit::load(&cx.payload(R::AtAnyHit::MASK));
-    // SAFETY: the caller's.
-    let (decision, output) = run(&AnyHit::new(cx), unsafe { record::<Rec>(&cx) }, input);
-    give(&cx, output);
+pub fn decide<T: Part>(cx: &Cx, (decision, part): (Decision, T)) -> Decision {
+    let _ = give(cx, part);
     #[cfg(target_arch = "nvptx64")]
     match decision {
         Decision::Accept => {}
@@ -77,31 +73,4 @@ where
         Decision::Terminate => cx.terminate_ray(),
     }
     decision
-}
-
-/// # Safety
-/// `cx` is of an intersection program whose record is a `Rec`.
-#[inline(always)]
-pub unsafe fn intersection<P, A, Rec, R>(
-    cx: Cx,
-    run: impl Fn(&Intersection<P, A>, &Rec, R::AtIntersection) -> R::FromIntersection,
-) -> Decision
-where
-    P: HasRay<R>,
-    Rec: SbtRecord,
-    R: Payload,
-{
-    cx.set_payload_type(P::PAYLOAD_TYPE);
-    let input = R::AtIntersection::load(&cx.payload(R::AtIntersection::MASK));
-    // SAFETY: the caller's.
-    let output = run(&Intersection::new(cx), unsafe { record::<Rec>(&cx) }, input);
-    give(&cx, output);
-    Decision::Accept
-}
-
-#[inline(always)]
-fn give<T: Part>(cx: &Cx, part: T) {
-    let mut words = WordBuffer::ZERO;
-    part.store(&mut words);
-    cx.set_payload(T::MASK, &words);
 }

@@ -31,6 +31,10 @@ impl Backend for CpuBackend {
         self.id
     }
 
+    fn take_complaints(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     fn allocate(&self, bytes: usize) -> Result<Arc<dyn Memory>> {
         Ok(Arc::new(CpuMemory::zeroed(self.id, bytes)?))
     }

@@ -85,7 +85,7 @@ fn run_index(job: &Job<'_>, index: UVec3) -> Result<()> {
     let raygen = &job.plan.description.raygen[job.raygen].entry;
     let call = Call { job, index, depth: 0, running: &Cell::new(raygen.name), payload: &Cell::new(WordBuffer::ZERO) };
     let outcome = catch_unwind(AssertUnwindSafe(|| {
-        call.run(raygen, &job.sbt.raygen, job.raygen, Ray::new(Vec3::ZERO, Vec3::ZERO), HitState::NONE, None, &call);
+        let _ = call.run(raygen, &job.sbt.raygen, job.raygen, Ray::new(Vec3::ZERO, Vec3::ZERO), HitState::NONE, None, &call);
     }));
     outcome.map_err(|panic| {
         let what = if let Some(Trap(what)) = panic.downcast_ref() {
@@ -177,7 +177,7 @@ impl Call<'_> {
             None => {
                 let miss = trace.miss_index as usize;
                 if let Some(program) = self.job.plan.description.rays[miss].miss {
-                    call.run(&program.entry, &self.job.sbt.miss, miss, ray, HitState::NONE, None, &call);
+                    let _ = call.run(&program.entry, &self.job.sbt.miss, miss, ray, HitState::NONE, None, &call);
                 }
             }
             Some(hit) if !ray.flags.closesthit_disabled() => {
@@ -195,7 +195,7 @@ impl Call<'_> {
                     let vertices = || hit.triangle_vertices();
                     let executor = AtHit { call, path: &hit.path, vertices: &vertices };
                     let seen = Ray { tmax: hit.t, ..ray };
-                    call.run(entry, &self.job.sbt.hit, hit.sbt_index as usize, seen, state, None, &executor);
+                    let _ = call.run(entry, &self.job.sbt.hit, hit.sbt_index as usize, seen, state, None, &executor);
                 }
             }
             Some(_) => {}
@@ -347,6 +347,6 @@ impl Programs for Traversal<'_> {
             traversal: RefCell::new(self),
             reporter: RefCell::new(reporter),
         };
-        call.run(entry, &call.job.sbt.hit, site.sbt_index as usize, ray, state, object_ray(site), &executor);
+        let _ = call.run(entry, &call.job.sbt.hit, site.sbt_index as usize, ray, state, object_ray(site), &executor);
     }
 }

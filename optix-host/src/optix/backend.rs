@@ -41,6 +41,11 @@ impl Backend for OptixBackend {
         self.id
     }
 
+    fn take_complaints(&self) -> Vec<String> {
+        let messages = self.context.take_messages().into_iter();
+        messages.filter(driver::LogMessage::is_complaint).map(|m| format!("[{}] {}", m.tag, m.text)).collect()
+    }
+
     fn allocate(&self, bytes: usize) -> Result<Arc<dyn Memory>> {
         Ok(Arc::new(OptixMemory { device: self.id, buffer: DeviceBuffer::zeroed(&self.context, bytes)? }))
     }

@@ -2,10 +2,9 @@
 
 use super::model::{Party, Payload};
 use crate::data::{docs_or, touch};
-use crate::support::allow;
+use crate::support::{allow, moved, place_of};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
-use syn::spanned::Spanned;
 
 /// `RadianceAtMiss` and the like.
 struct Part {
@@ -51,7 +50,9 @@ pub fn emit(payload: &Payload) -> TokenStream {
     for (i, (field, access)) in shape.fields.iter().zip(&payload.access).enumerate() {
         let ty = &field.ty;
         let (at, count, next) = (format_ident!("__AT_{i}"), format_ident!("__COUNT_{i}"), format_ident!("__AT_{}", i + 1));
-        let words = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::COUNT);
+        let span = place_of(ty);
+        let krate = moved(krate, span);
+        let words = quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT);
         places.extend(quote! {
             const #count: usize = #words;
             const #next: usize = #at + #count;
@@ -75,7 +76,9 @@ pub fn emit(payload: &Payload) -> TokenStream {
         });
     }
     let end = format_ident!("__AT_{}", shape.fields.len());
-    let check = quote_spanned!(ident.span()=> const _: () = #krate::check::payload_words(#name, __WORDS););
+    let span = place_of(ident);
+    let moved_krate = moved(krate, span);
+    let check = quote_spanned!(span=> const _: () = #moved_krate::check::payload_words(#name, __WORDS););
     let touch = touch(shape);
 
     quote! {
@@ -132,18 +135,23 @@ fn part_struct(payload: &Payload, part: &Part) -> TokenStream {
 
 fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
     let shape = &payload.shape;
-    let (krate, payload_ident, ident, role) = (&shape.krate, &shape.ident, &part.ident, part.role());
+    let (krate, payload_ident, ident) = (&shape.krate, &shape.ident, &part.ident);
+    let passage = passage(payload, part);
     let places = part.fields.iter().map(|i| (format_ident!("__AT_{i}"), format_ident!("__COUNT_{i}")));
     let masks = places.clone().map(|(at, count)| quote!(#krate::payload::word_mask(#at, #count)));
     let fields: Vec<_> = part.fields.iter().map(|&i| &shape.fields[i]).collect();
     let loads = fields.iter().zip(places.clone()).map(|(field, (at, _))| {
         let (member, ty) = (&field.member, &field.ty);
-        let load = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::load);
+        let span = place_of(ty);
+        let krate = moved(krate, span);
+        let load = quote_spanned!(span=> <#ty as #krate::words::Words>::load);
         quote!(#member: #load(__words, #at))
     });
     let stores = fields.iter().zip(places).map(|(field, (at, _))| {
         let (member, ty) = (&field.member, &field.ty);
-        let store = quote_spanned!(ty.span()=> <#ty as #krate::words::Words>::store);
+        let span = place_of(ty);
+        let krate = moved(krate, span);
+        let store = quote_spanned!(span=> <#ty as #krate::words::Words>::store);
         quote!(#store(self.#member, __words, #at);)
     });
     quote! {
@@ -163,16 +171,36 @@ fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
         impl #krate::payload::PartOf for #ident {
             type Payload = #payload_ident;
         }
-        #[automatically_derived]
-        impl #krate::check::PartFor<#krate::check::#role> for #ident {
-            type Payload = #payload_ident;
-            #[inline(always)]
-            fn take(__part: Self) -> Self {
-                __part
+        #passage
+    }
+}
+
+/// What says that a program of the party's kind receives or returns the part.
+fn passage(payload: &Payload, part: &Part) -> TokenStream {
+    if part.party == Party::Caller {
+        return TokenStream::new();
+    }
+    let (krate, payload, ident) = (&payload.shape.krate, &payload.shape.ident, &part.ident);
+    if part.reads {
+        let passage = format_ident!("ReceivedBy{}", part.party.suffix());
+        quote! {
+            #[automatically_derived]
+            impl #krate::check::#passage<#payload> for #ident {
+                #[inline(always)]
+                fn take(__part: Self) -> Self {
+                    __part
+                }
             }
-            #[inline(always)]
-            fn give(self) -> Self {
-                self
+        }
+    } else {
+        let passage = format_ident!("ReturnedBy{}", part.party.suffix());
+        quote! {
+            #[automatically_derived]
+            impl #krate::check::#passage<#payload> for #ident {
+                #[inline(always)]
+                fn give(self) -> Self {
+                    self
+                }
             }
         }
     }

@@ -5,7 +5,6 @@ use crate::support::Errors;
 use proc_macro2::Span;
 use syn::Ident;
 use syn::punctuated::Punctuated;
-use syn::spanned::Spanned;
 
 /// Who takes part in a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,11 +135,12 @@ impl Access {
             access.complete = false;
             return access;
         };
-        for second in attributes {
-            errors.at(second, format!("field `{name}` has `#[payload(..)]` twice: write one, with all parties"));
-        }
         let mut seen: Vec<&str> = Vec::new();
         let mut broken = false;
+        for second in attributes {
+            broken = true;
+            errors.at(second, format!("field `{name}` has `#[payload(..)]` twice: write one, with all parties"));
+        }
         let result = attribute.parse_nested_meta(|meta| {
             let word = if meta.path.is_ident("read") {
                 "read"
@@ -191,7 +191,7 @@ impl Access {
                 } else {
                     ("nobody reads it", "so it takes registers for nothing: add `read(..)`, or remove the field")
                 };
-                errors.push(syn::Error::new(attribute.span(), format!("field `{name}`: {why}, {way}")));
+                errors.at(attribute, format!("field `{name}`: {why}, {way}"));
             }
         }
         access

@@ -3,11 +3,10 @@
 use super::check::path;
 use super::parse::{Geometry, Group, Pipeline, Programs};
 use crate::program::Kind;
-use crate::support::{allow, name, place};
-use proc_macro2::{Ident, Span, TokenStream};
+use crate::support::{allow, moved, name, place, place_of};
+use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::Path;
-use syn::spanned::Spanned;
 
 /// Entry points, as they are needed.
 struct Entries<'a> {
@@ -19,7 +18,8 @@ struct Entries<'a> {
 
 impl Entries<'_> {
     /// Makes the entry of a program on both machines; gives the host's `Entry`.
-    fn add(&mut self, kind: Kind, program: &Path, types: &TokenStream, of: &[String]) -> TokenStream {
+    /// `types` are those of the entry, `bound` the trait that has the program's function.
+    fn add(&mut self, kind: Kind, program: &Path, types: &TokenStream, bound: &TokenStream, of: &[String]) -> TokenStream {
         let krate = &self.pipeline.krate;
         let mut stem = format!("__{}__{}_{}", kind.attribute(), name(&self.pipeline.ident), symbol(program));
         for part in of {
@@ -36,18 +36,38 @@ impl Entries<'_> {
         let device = format_ident!("{entry_name}");
         let host = format_ident!("__run_{}", self.names.len() - 1);
         let body = format_ident!("{}", kind.attribute());
-        let call = quote_spanned!(program.span()=> #krate::program::entry::#body::<#types #program>);
+        let span = place_of(program);
+        let (moved_krate, bound) = (moved(krate, span), moved(bound, span));
+        let run = quote_spanned!(span=> <#program as #moved_krate::program::#bound>::run);
+        let enter = quote!(#krate::program::entry::#body::<#types>);
+        let call = match kind {
+            Kind::RayGen => quote! {
+                let (__context, __record) = unsafe { #enter(&__cx) };
+                #run(&__context, __record);
+                #krate::ray::Decision::Accept
+            },
+            Kind::AnyHit => quote! {
+                let (__context, __record, __input) = unsafe { #enter(&__cx) };
+                #krate::program::entry::decide(&__cx, #run(&__context, __record, __input))
+            },
+            _ => quote! {
+                let (__context, __record, __input) = unsafe { #enter(&__cx) };
+                #krate::program::entry::give(&__cx, #run(&__context, __record, __input))
+            },
+        };
         self.items.extend(quote! {
             // SAFETY: the caller's frame is of this program.
             #[cfg(not(target_arch = "nvptx64"))]
             unsafe fn #host(__frame: &#krate::host::Frame<'_>) -> #krate::ray::Decision {
-                unsafe { #call(#krate::machine::Cx::new(__frame)) }
+                let __cx = unsafe { #krate::machine::Cx::new(__frame) };
+                #call
             }
             // SAFETY: OptiX calls it as a program of its kind, with the record and payload of its hit group or ray type.
             #[cfg(target_arch = "nvptx64")]
             #[unsafe(no_mangle)]
             pub unsafe extern "ptx-kernel" fn #device() {
-                let _ = unsafe { #call(#krate::machine::Cx::new()) };
+                let __cx = unsafe { #krate::machine::Cx::new() };
+                let _ = { #call };
             }
         });
         let function = path(program);
@@ -97,8 +117,11 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
     let mut impls = TokenStream::new();
 
     let raygen: Vec<_> = pipeline.raygen.iter().enumerate().map(|(i, program)| {
-        let entry = entries.add(Kind::RayGen, program, &quote!(#ident,), &[]);
-        let record = quote_spanned!(program.span()=> <#program as #krate::program::RayGenProgram<#ident>>::Record);
+        let span = place_of(program);
+        let bound = quote!(RayGenProgram<#ident>);
+        let (moved_krate, moved_bound) = (moved(krate, span), moved(&bound, span));
+        let record = quote_spanned!(span=> <#program as #moved_krate::program::#moved_bound>::Record);
+        let entry = entries.add(Kind::RayGen, program, &quote!(#ident, #record), &bound, &[]);
         let index = i as u32;
         impls.extend(quote! {
             #[automatically_derived]
@@ -113,16 +136,19 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
     let rays: Vec<_> = pipeline.rays.iter().map(|ray| {
         let payload = &ray.payload;
         let miss = ray.miss.as_ref().map(|program| {
-            let entry = entries.add(Kind::Miss, program, &quote!(#ident, #payload,), &[symbol(payload)]);
             let record = miss_record(pipeline, payload, Some(program));
+            let bound = quote!(MissProgram<#ident, #payload>);
+            let types = quote!(#ident, #payload, #record);
+            let entry = entries.add(Kind::Miss, program, &types, &bound, &[symbol(payload)]);
             quote!(#krate::host::ProgramDescription { entry: #entry, record: #krate::host::RecordLayout::of::<#record>() })
         });
         if miss.is_none() {
             impls.extend(nothing_to_write(krate, payload, "FromMiss"));
         }
         let miss = option(miss);
+        let moved_krate = moved(krate, place_of(payload));
         quote! {
-            #krate::host::RayDescription { payload: #krate::host::PayloadDescription::of::<#payload>(), miss: #miss }
+            #krate::host::RayDescription { payload: #krate::host::PayloadDescription { name: <#payload as #moved_krate::payload::Payload>::NAME, semantics: <#payload as #moved_krate::payload::Payload>::SEMANTICS }, miss: #miss }
         }
     }).collect();
     impls.extend(has_rays(pipeline));
@@ -154,7 +180,7 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
                     name: #pipeline_name,
-                    params: #krate::host::ParamsDescription::of::<#params>(),
+                    params: #krate::host::ParamsDescription::of::<<Self as #krate::pipeline::Pipeline>::Params>(),
                     raygen: &[#(#raygen),*],
                     rays: &[#(#rays),*],
                     hitgroups: &[#(#groups),*],
@@ -172,10 +198,11 @@ fn describe_group(pipeline: &Pipeline, group: &Group, entries: &mut Entries<'_>,
     let (ident, krate, record) = (&pipeline.ident, &pipeline.krate, &group.record);
     let hits_of = |programs: &Programs| match &programs.intersection {
         Some(program) => {
-            let ray = &programs.ray;
-            quote_spanned! {program.span()=>
-                <#program as #krate::program::IntersectionProgram<#ident, #record, #ray>>::Attributes
-            }
+            let span = place_of(program);
+            let krate = moved(krate, span);
+            let types = [ident.to_token_stream(), record.to_token_stream(), programs.ray.to_token_stream()];
+            let types = types.iter().map(|t| moved(t, span));
+            quote_spanned!(span=> <#program as #krate::program::IntersectionProgram<#(#types),*>>::Attributes)
         }
         None => quote!(#krate::attributes::Triangles),
     };
@@ -188,7 +215,9 @@ fn describe_group(pipeline: &Pipeline, group: &Group, entries: &mut Entries<'_>,
             (Some(first), Some(program)) => {
                 if first.intersection.as_ref().is_some_and(|f| super::check::text(f) != super::check::text(program)) {
                     let other = hits_of(first);
-                    impls.extend(quote_spanned! {program.span()=>
+                    let span = place_of(program);
+                    let krate = moved(krate, span);
+                    impls.extend(quote_spanned! {span=>
                         const _: () = #krate::check::same_hits::<#hits, #other>();
                     });
                 }
@@ -204,12 +233,13 @@ fn describe_group(pipeline: &Pipeline, group: &Group, entries: &mut Entries<'_>,
         }
         let mut entry = |kind: Kind| {
             let program = programs.get(kind)?;
-            let types = if kind == Kind::Intersection {
-                quote!(#ident, #record, #ray,)
-            } else {
-                quote!(#ident, #hits, #record, #ray,)
+            let types = quote!(#ident, #hits, #record, #ray);
+            let bound = match kind {
+                Kind::Intersection => quote!(IntersectionProgram<#ident, #record, #ray>),
+                Kind::AnyHit => quote!(AnyHitProgram<#types>),
+                _ => quote!(ClosestHitProgram<#types>),
             };
-            Some(entries.add(kind, program, &types, &of))
+            Some(entries.add(kind, program, &types, &bound, &of))
         };
         let closesthit = option(entry(Kind::ClosestHit));
         let anyhit = option(entry(Kind::AnyHit));
@@ -241,7 +271,9 @@ fn miss_record(pipeline: &Pipeline, payload: &syn::Type, program: Option<&Path>)
     let (ident, krate) = (&pipeline.ident, &pipeline.krate);
     match program {
         Some(program) => {
-            quote_spanned!(program.span()=> <#program as #krate::program::MissProgram<#ident, #payload>>::Record)
+            let span = place_of(program);
+            let (krate, bound) = (moved(krate, span), moved(&quote!(MissProgram<#ident, #payload>), span));
+            quote_spanned!(span=> <#program as #krate::program::#bound>::Record)
         }
         None => quote!(()),
     }
@@ -251,10 +283,13 @@ fn has_rays(pipeline: &Pipeline) -> TokenStream {
     let (ident, krate) = (&pipeline.ident, &pipeline.krate);
     let impls = pipeline.rays.iter().enumerate().map(|(i, ray)| {
         let (payload, index) = (&ray.payload, i as u32);
+        let span = place_of(payload);
+        let krate = moved(krate, span);
+        let has_ray = quote_spanned!(span=> #krate::pipeline::HasRay<#payload>);
         let record = miss_record(pipeline, payload, ray.miss.as_ref());
         quote! {
             #[automatically_derived]
-            impl #krate::pipeline::HasRay<#payload> for #ident {
+            impl #has_ray for #ident {
                 const INDEX: u32 = #index;
                 type MissRecord = #record;
             }
@@ -265,8 +300,9 @@ fn has_rays(pipeline: &Pipeline) -> TokenStream {
 
 /// Asserts that no program is missing here.
 fn nothing_to_write(krate: &Path, payload: &syn::Type, role: &str) -> TokenStream {
-    let span: Span = payload.span();
-    let role: Ident = format_ident!("{role}");
+    let span = place_of(payload);
+    let role = format_ident!("{role}", span = span);
+    let krate = moved(krate, span);
     quote_spanned! {span=>
         const _: () = #krate::check::nothing_to_write::<<#payload as #krate::payload::Payload>::#role>();
     }
@@ -308,7 +344,7 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
                     name: #pipeline_name,
-                    params: #krate::host::ParamsDescription::of::<#params>(),
+                    params: #krate::host::ParamsDescription::of::<<Self as #krate::pipeline::Pipeline>::Params>(),
                     raygen: &[],
                     rays: &[],
                     hitgroups: &[],

@@ -197,11 +197,20 @@ fn program(input: ParseStream<'_>) -> Result<Path> {
     if !input.peek(Ident::peek_any) && !input.peek(Token![::]) {
         return Err(input.error("expected the name of a program: a function with its kind's attribute, such as `lambert`"));
     }
-    let path = input.call(Path::parse_mod_style)?;
-    if input.peek(Token![<]) || input.peek(Token![::]) {
-        return Err(input.error("a program is named without `<..>`: `pipeline!` fills in the pipeline, record and payload"));
+    let with_arguments = |input: ParseStream<'_>| {
+        input.peek(Token![<]) || input.peek(Token![::]) && input.peek3(Token![<])
+    };
+    let mut path = Path { leading_colon: input.parse()?, segments: Default::default() };
+    loop {
+        path.segments.push_value(input.call(Ident::parse_any)?.into());
+        if with_arguments(input) {
+            return Err(input.error("a program is named without `<..>`: `pipeline!` fills in the pipeline, record and payload"));
+        }
+        if !input.peek(Token![::]) {
+            return Ok(path);
+        }
+        path.segments.push_punct(input.parse()?);
     }
-    Ok(path)
 }
 
 fn ray(input: ParseStream<'_>, errors: &mut Errors) -> Result<Ray> {

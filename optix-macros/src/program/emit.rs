@@ -1,10 +1,9 @@
 //! The type that stands for a program, and its impl of the program trait.
 
-use super::model::{Kind, Program};
-use crate::support::allow;
+use super::model::{Kind, Program, Roles};
+use crate::support::{allow, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
-use syn::spanned::Spanned;
 use syn::{GenericParam, Generics, Ident, Path};
 
 /// The type of the program's name. It is public even where the function is not: a pipeline names it in public impls.
@@ -40,15 +39,14 @@ pub fn emit(program: &Program) -> TokenStream {
         None => quote!(()),
     };
     // Payload: that of the part it receives or returns, else any that asks for nothing.
-    let payload = match (kind.roles(), &program.input, &program.output) {
-        (None, ..) => quote!(()),
-        (Some((at, _)), Some(input), _) => {
-            quote_spanned!(input.span()=> <#input as #krate::check::PartFor<#krate::check::#at>>::Payload)
+    let payload = match (kind.roles(), program.input.as_ref().or(program.output.as_ref())) {
+        (None, _) => quote!(()),
+        (Some(_), Some(part)) => {
+            let span = place_of(part);
+            let krate = moved(krate, span);
+            quote_spanned!(span=> <#part as #krate::payload::PartOf>::Payload)
         }
-        (Some((_, from)), None, Some(output)) => {
-            quote_spanned!(output.span()=> <#output as #krate::check::PartFor<#krate::check::#from>>::Payload)
-        }
-        (Some((_, from)), None, None) => {
+        (Some(Roles { from, .. }), None) => {
             generics.params.push(syn::parse_quote!(__R: #payload_trait));
             bounds.push(quote!(<__R as #payload_trait>::#from: #krate::check::MayReturnNothing));
             quote!(__R)
@@ -57,18 +55,25 @@ pub fn emit(program: &Program) -> TokenStream {
 
     // The call.
     let record_argument = program.record.as_ref().map(|_| quote!(, __record));
-    let input_argument = program.input.as_ref().zip(kind.roles()).map(|(input, (at, _))| {
-        let take = quote_spanned!(input.span()=> <#input as #krate::check::PartFor<#krate::check::#at>>::take);
+    let input_argument = program.input.as_ref().zip(kind.roles()).map(|(input, Roles { received, .. })| {
+        let span = place_of(input);
+        let (krate, payload) = (moved(krate, span), moved(&payload, span));
+        let take = quote_spanned!(span=> <#input as #krate::check::#received<#payload>>::take);
         quote!(, #take(__input))
     });
     let call = quote!(#ident(__cx #record_argument #input_argument));
-    let nothing = kind.roles().map(|(_, from)| {
-        quote_spanned! {ident.span()=>
+    let nothing = kind.roles().map(|Roles { from, .. }| {
+        let span = place_of(ident);
+        let (krate, payload, payload_trait, from) =
+            (moved(krate, span), moved(&payload, span), moved(&payload_trait, span), moved(&from, span));
+        quote_spanned! {span=>
             <<#payload as #payload_trait>::#from as #krate::check::MayReturnNothing>::nothing()
         }
     });
-    let give = program.output.as_ref().zip(kind.roles()).map(|(output, (_, from))| {
-        quote_spanned!(output.span()=> <#output as #krate::check::PartFor<#krate::check::#from>>::give)
+    let give = program.output.as_ref().zip(kind.roles()).map(|(output, Roles { returned, .. })| {
+        let span = place_of(output);
+        let (krate, payload, returned) = (moved(krate, span), moved(&payload, span), moved(&returned, span));
+        quote_spanned!(span=> <#output as #krate::check::#returned<#payload>>::give)
     });
     let body = match (kind, give) {
         (Kind::RayGen, _) => quote!(#call;),
@@ -98,7 +103,7 @@ pub fn emit(program: &Program) -> TokenStream {
     };
     let (input, output) = match kind.roles() {
         None => (TokenStream::new(), TokenStream::new()),
-        Some((at, from)) => {
+        Some(Roles { at, from, .. }) => {
             let part = |role: &Ident| quote!(<#payload as #payload_trait>::#role);
             let (input, output) = (part(&at), part(&from));
             let decision = quote!(#krate::ray::Decision);

@@ -28,7 +28,10 @@ pub fn expand(kind: Kind, arguments: TokenStream, item: TokenStream) -> TokenStr
         }
     };
     let program = model::Program::new(kind, krate.clone(), &function, &mut errors);
+    // In an impl there is no room for the type that stands for the program.
+    let in_impl = function.sig.receiver().is_some();
     let items = match program {
+        _ if in_impl => TokenStream::new(),
         Some(program) if errors.is_empty() => emit::emit(&program),
         // The pipeline must not complain about the program again.
         _ => emit::fallback(kind, &krate, &function.sig.ident),

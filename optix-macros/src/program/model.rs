@@ -336,7 +336,7 @@ fn record_and_payload(kind: Kind, arguments: &[&Type], errors: &mut Errors) -> (
                 let message = if record.is_some() {
                     "a program takes one record; its part of the payload comes by value, without `&`".to_owned()
                 } else {
-                    format!("the record comes before the payload: {example}")
+                    format!("the record comes before the payload, which comes last and by value: {example}")
                 };
                 errors.at(ty, message);
             }
@@ -345,7 +345,13 @@ fn record_and_payload(kind: Kind, arguments: &[&Type], errors: &mut Errors) -> (
                 ty,
                 "a ray-generation program gets no payload; its record is taken by reference: `record: &T`",
             ),
-            _ if i + 1 == arguments.len() => input = Some((*ty).clone()),
+            _ if i + 1 == arguments.len() => {
+                if is_part(kind, ty, true, errors) {
+                    input = Some((*ty).clone());
+                }
+            }
+            // The payload, which comes last; the record has its own message.
+            _ if matches!(arguments.get(i + 1), Some(Type::Reference(_))) => {}
             _ => errors.at(ty, "the record is taken by reference: write `&` before its type"),
         }
     }
@@ -378,7 +384,7 @@ fn output(kind: Kind, output: &ReturnType, sig: &syn::Signature, errors: &mut Er
             Type::Tuple(tuple) if tuple.elems.len() == 2 => {
                 let part = &tuple.elems[1];
                 let unit = matches!(part, Type::Tuple(tuple) if tuple.elems.is_empty());
-                (!unit).then(|| part.clone())
+                (!unit && is_part(kind, part, false, errors)).then(|| part.clone())
             }
             Type::Path(path) if path.path.segments.last().is_some_and(|s| s.ident == "Decision") => None,
             _ => {
@@ -404,15 +410,65 @@ fn output(kind: Kind, output: &ReturnType, sig: &syn::Signature, errors: &mut Er
                 errors.at(ty, "a program's result has a named type");
                 None
             }
-            _ => Some(ty.clone()),
+            _ => is_part(kind, ty, false, errors).then(|| ty.clone()),
         },
     }
 }
 
+/// Whether a type is a payload part of the right kind, by its name. Types are checked later; this is for the message.
+fn is_part(kind: Kind, ty: &Type, received: bool, errors: &mut Errors) -> bool {
+    let word = if received { "At" } else { "From" };
+    let suffix = format!("{word}{}", kind.context());
+    let last = match ungroup(ty) {
+        Type::Path(path) => path.path.segments.last().map(|s| s.ident.to_string()),
+        _ => None,
+    };
+    if last.as_ref().is_some_and(|name| name.ends_with(&suffix)) {
+        return true;
+    }
+    let (phrase, does) = (kind.phrase(), if received { "receives" } else { "returns" });
+    let of_another = last.as_ref().and_then(|name| {
+        let parties = ["Caller", "ClosestHit", "Miss", "AnyHit", "Intersection"];
+        let suffixes = parties.iter().flat_map(|party| [format!("At{party}"), format!("From{party}")]);
+        suffixes.into_iter().find_map(|suffix| name.strip_suffix(&suffix).map(str::to_owned))
+    });
+    let message = match of_another {
+        Some(payload) if !payload.is_empty() => {
+            format!("{phrase} {does} `{payload}{suffix}` of payload `{payload}`: this is another party's part")
+        }
+        _ if received => format!(
+            "{phrase} {does} its part of the payload, a struct `..{suffix}` that `#[derive(Payload)]` makes; if this is its \
+             record, take it by reference: write `&` before the type"
+        ),
+        _ => format!(
+            "{phrase} {does} its part of the payload, a struct `..{suffix}` that `#[derive(Payload)]` makes, or nothing"
+        ),
+    };
+    errors.at(ty, message);
+    false
+}
+
+/// Names of a kind's payload parts: the associated types, and the traits of what may take their place.
+pub struct Roles {
+    /// `AtClosestHit`.
+    pub at: Ident,
+    /// `FromClosestHit`.
+    pub from: Ident,
+    /// `ReceivedByClosestHit`.
+    pub received: Ident,
+    /// `ReturnedByClosestHit`.
+    pub returned: Ident,
+}
+
 impl Kind {
     /// The payload parts it has.
-    pub fn roles(self) -> Option<(Ident, Ident)> {
-        (self != Self::RayGen)
-            .then(|| (quote::format_ident!("At{}", self.context()), quote::format_ident!("From{}", self.context())))
+    pub fn roles(self) -> Option<Roles> {
+        let ident = |word: &str| quote::format_ident!("{word}{}", self.context());
+        (self != Self::RayGen).then(|| Roles {
+            at: ident("At"),
+            from: ident("From"),
+            received: ident("ReceivedBy"),
+            returned: ident("ReturnedBy"),
+        })
     }
 }

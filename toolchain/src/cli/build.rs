@@ -8,8 +8,10 @@ use optix_toolchain::{Shaders, Workspace};
 use super::{Failure, Outcome, current_dir};
 
 pub(super) fn run(arch: &str, path: Option<PathBuf>) -> Outcome {
-    let here = current_dir()?;
-    let workspace = Workspace::of(&here)?;
+    let workspace = match &path {
+        Some(path) => Workspace::of(path)?,
+        None => Workspace::of(&current_dir()?)?,
+    };
     let crates: Vec<PathBuf> = match path {
         Some(path) => vec![path],
         None => workspace.packages.iter().filter(|p| p.has_shaders).map(|p| p.dir().to_path_buf()).collect(),

@@ -47,7 +47,7 @@ pub fn camera(rg: &RayGen<PathTracer>) {
     while sample < frame.samples() {
         let number = frame.first_sample() + sample;
         let pixel = (px.y as u64 * size.x as u64 + px.x as u64) << 32 | number as u64;
-        let mut rng = Pcg32::new(pixel, frame.seed() as u64);
+        let mut rng = Pcg32::hashed(pixel, frame.seed());
         let at = (px.as_vec2() + rng.next_vec2()) / size.as_vec2();
         let (light, traced) = path(rg, pinhole.ray(at), rng);
         sum += light;

@@ -40,7 +40,7 @@ pub struct Frame {
     /// Samples of this pass.
     pub samples: u32,
     /// Chooses the random sequences.
-    pub seed: u32,
+    pub seed: u64,
     /// How many times a path may bounce.
     #[bound]
     pub max_bounces: u32,

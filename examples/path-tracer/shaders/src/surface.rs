@@ -1,6 +1,7 @@
 //! Diffuse surfaces.
 
 use crate::{PathTracer, RadianceAtClosestHit, RadianceFromClosestHit, Shadow, ShadowFromCaller};
+use optix_device_rs::math::sin_cos_turns;
 use optix_device_rs::prelude::*;
 
 /// A diffuse surface, shaded by the normal of its triangles.
@@ -116,6 +117,6 @@ fn direct(
 /// A direction around +z, by the cosine: a point of the unit disk, raised (Malley's method).
 fn cosine(at: Vec2) -> Vec3 {
     let radius = at.x.sqrt();
-    let angle = 2.0 * core::f32::consts::PI * at.y;
-    Vec3::new(radius * angle.cos(), radius * angle.sin(), (1.0 - at.x).max(0.0).sqrt())
+    let (sin, cos) = sin_cos_turns(at.y);
+    Vec3::new(radius * cos, radius * sin, (1.0 - at.x).max(0.0).sqrt())
 }

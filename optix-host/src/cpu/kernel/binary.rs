@@ -30,7 +30,7 @@ impl Binary {
     pub fn by_surface_area(boxes: &[Aabb], active: &[u32]) -> Self {
         let normalised = normalise(boxes, active);
         let mut tree = PlocBuilder::with_capacity(active.len()).build(
-            PlocSearchDistance::Medium,
+            PlocSearchDistance::Low,
             &normalised,
             (0..active.len() as u32).collect(),
             SortPrecision::U64,

@@ -89,19 +89,12 @@ struct Part {
     primitive_index_offset: u32,
 }
 
-/// What a lane of a [`Block`] stands for: a primitive, counted over all inputs, and its SBT index in the structure.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Ids {
-    pub primitive: u32,
-    pub record: u32,
-}
-
 #[derive(Debug)]
 pub(super) enum Content {
     /// A leaf's payload is the index of its block, and its number of triangles less 1 in the highest 3 of 31 bits.
-    Triangles { blocks: Vec<Block>, ids: Vec<[Ids; WIDTH]>, inputs: Vec<TriangleInput> },
+    Triangles { blocks: Vec<Block>, inputs: Vec<TriangleInput> },
     /// A leaf's payload is the primitive, counted over all inputs.
-    Custom { records: Vec<u32>, inputs: Vec<AabbInput> },
+    Custom { inputs: Vec<AabbInput> },
 }
 
 /// Bits of a triangle leaf's payload that hold the block.
@@ -119,7 +112,10 @@ pub(super) fn block_of(payload: u32) -> (usize, u32) {
 pub struct Gas {
     pub(super) bvh: Bvh,
     pub(super) content: Content,
+    /// Of each SBT record.
     flags: Vec<GeometryFlags>,
+    /// SBT index of each primitive; empty if there is only one.
+    records: Vec<u32>,
     parts: Vec<Part>,
     primitives: usize,
 }
@@ -132,24 +128,16 @@ impl Gas {
             input.check(i)?;
             table.add(i, input.len(), &input.sbt, input.primitive_index_offset)?;
         }
-        let Table { parts, flags, records } = table;
         let triangles: Vec<[[f32; 3]; 3]> =
             inputs.iter().flat_map(|input| (0..input.len()).map(|i| input.triangle(i))).collect();
         let boxes: Vec<Aabb> = triangles.iter().map(|corners| Aabb::around(corners)).collect();
-        let (mut blocks, mut ids) = (Vec::new(), Vec::new());
+        let mut blocks = Vec::with_capacity(triangles.len() / 4);
         let bvh = Bvh::build(&boxes, TRIANGLE_LEAF, |primitives| {
-            let corners: Vec<_> = primitives.iter().map(|&p| triangles[p as usize]).collect();
-            let mut lanes = [Ids::default(); WIDTH];
-            for (lane, &primitive) in lanes.iter_mut().zip(primitives) {
-                *lane = Ids { primitive, record: records[primitive as usize] };
-            }
-            blocks.push(Block::new(&corners));
-            ids.push(lanes);
+            blocks.push(Block::new(primitives, &triangles));
             (blocks.len() - 1) as u32 | (primitives.len() as u32 - 1) << BLOCK_BITS
         });
         blocks.shrink_to_fit();
-        ids.shrink_to_fit();
-        Ok(Self { bvh, content: Content::Triangles { blocks, ids, inputs }, flags, parts, primitives: triangles.len() })
+        Ok(table.finish(bvh, Content::Triangles { blocks, inputs }))
     }
 
     /// Builds over custom primitives. No inputs, and inputs without boxes, are legal; rays then miss.
@@ -162,10 +150,9 @@ impl Gas {
             }
             table.add(i, input.boxes.len(), &input.sbt, input.primitive_index_offset)?;
         }
-        let Table { parts, flags, records } = table;
         let boxes: Vec<Aabb> = inputs.iter().flat_map(|input| input.boxes.iter().copied()).collect();
         let bvh = Bvh::build(&boxes, SINGLE_LEAF, |primitives| primitives[0]);
-        Ok(Self { bvh, content: Content::Custom { records, inputs }, flags, parts, primitives: boxes.len() })
+        Ok(table.finish(bvh, Content::Custom { inputs }))
     }
 
     /// The smallest box around all active primitives.
@@ -210,19 +197,16 @@ impl Gas {
     /// Heap bytes of nodes, blocks and tables, and of the inputs, which are kept for the accessors.
     pub fn memory_bytes(&self) -> usize {
         let content = match &self.content {
-            Content::Triangles { blocks, ids, inputs } => {
-                size_of_val(&blocks[..])
-                    + size_of_val(&ids[..])
-                    + inputs
-                        .iter()
-                        .map(|i| size_of_val(&i.vertices[..]) + i.indices.as_ref().map_or(0, |x| size_of_val(&x[..])))
-                        .sum::<usize>()
+            Content::Triangles { blocks, inputs } => {
+                let input = |i: &TriangleInput| {
+                    size_of_val(&i.vertices[..]) + i.indices.as_ref().map_or(0, |x| size_of_val(&x[..]))
+                };
+                size_of_val(&blocks[..]) + inputs.iter().map(input).sum::<usize>()
             }
-            Content::Custom { records, inputs } => {
-                size_of_val(&records[..]) + inputs.iter().map(|i| size_of_val(&i.boxes[..])).sum::<usize>()
-            }
+            Content::Custom { inputs } => inputs.iter().map(|i| size_of_val(&i.boxes[..])).sum(),
         };
-        self.bvh.memory_bytes() + content + size_of_val(&self.flags[..]) + size_of_val(&self.parts[..])
+        let tables = size_of_val(&self.flags[..]) + size_of_val(&self.records[..]) + size_of_val(&self.parts[..]);
+        self.bvh.memory_bytes() + content + tables
     }
 
     /// The index that programs see of a primitive counted over all inputs.
@@ -230,6 +214,12 @@ impl Gas {
     pub(super) fn primitive_index(&self, primitive: u32) -> u32 {
         let part = self.parts[self.parts.partition_point(|p| p.first_primitive <= primitive) - 1];
         primitive - part.first_primitive + part.primitive_index_offset
+    }
+
+    /// The SBT index of a primitive counted over all inputs.
+    #[inline(always)]
+    pub(super) fn record_of(&self, primitive: u32) -> u32 {
+        if self.records.is_empty() { 0 } else { self.records[primitive as usize] }
     }
 
     #[inline(always)]
@@ -299,5 +289,13 @@ impl Table {
         }
         self.flags.extend(&sbt.flags);
         Ok(())
+    }
+
+    fn finish(mut self, bvh: Bvh, content: Content) -> Gas {
+        let primitives = self.records.len();
+        if self.flags.len() <= 1 {
+            self.records = Vec::new();
+        }
+        Gas { bvh, content, flags: self.flags, records: self.records, parts: self.parts, primitives }
     }
 }

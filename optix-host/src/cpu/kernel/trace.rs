@@ -2,7 +2,7 @@
 
 use super::bvh::{Bvh, Child, Lanes, STACK};
 use super::flags::{InstanceFlags, Verdict, any_hit_verdict, face_culled};
-use super::gas::{Content, Gas, Ids, block_of};
+use super::gas::{Content, Gas, block_of};
 use super::ias::{Accel, Ias};
 use super::path::InstancePath;
 use super::program::{AnyHit, Candidate, Hit, Programs, Reporter, Site};
@@ -11,7 +11,7 @@ use super::ray::{BoxRay, Frame, Ray, RayQuery};
 use super::simd::Avx2;
 use super::simd::{Portable, Simd, Task};
 use super::state::{Found, State, sbt_index};
-use super::triangle::{self, TriangleHit};
+use super::triangle::{self, Block, TriangleHit};
 
 /// Hit kinds of triangles (`OptixHitKind`).
 pub const FRONT_FACE: u8 = 254;
@@ -96,8 +96,8 @@ impl<P: Programs> Task for Level<'_, '_, P> {
         let Some(frame) = Frame::new(&self.here.ray, self.state.query.tmin, &bvh.bounds, slack) else { return };
         match self.accel {
             Accel::Gas(gas) => match &gas.content {
-                Content::Triangles { blocks, ids, .. } => self.triangles(simd, gas, blocks, ids, &frame),
-                Content::Custom { records, .. } => self.custom(simd, gas, records, &frame),
+                Content::Triangles { blocks, .. } => self.triangles(simd, gas, blocks, &frame),
+                Content::Custom { .. } => self.custom(simd, gas, &frame),
             },
             Accel::Ias(ias) => self.instances(simd, ias, &frame),
         }
@@ -106,31 +106,24 @@ impl<P: Programs> Task for Level<'_, '_, P> {
 
 impl<'a, P: Programs> Level<'_, 'a, P> {
     #[inline(always)]
-    fn triangles<S: Simd>(
-        self,
-        simd: S,
-        gas: &'a Gas,
-        blocks: &[triangle::Block],
-        ids: &[[Ids; 8]],
-        frame: &Frame,
-    ) {
+    fn triangles<S: Simd>(self, simd: S, gas: &'a Gas, blocks: &[Block], frame: &Frame) {
         let Self { here, state, path, programs, .. } = self;
         let limit = frame.depth_max(state.tmax);
         walk(simd, &gas.bvh, &frame.boxes, limit, |payload, limit| {
             let (block, used) = block_of(payload);
-            let mut lanes = simd.triangles(&blocks[block], &frame.shear) & used;
+            let block = &blocks[block];
+            let mut lanes = simd.triangles(block, &frame.shear) & used;
             let before = state.tmax;
             while lanes != 0 {
                 let lane = lanes.trailing_zeros() as usize;
                 lanes &= lanes - 1;
-                let Some(hit) = triangle::hit(&frame.shear, blocks[block].triangle(lane)) else { continue };
-                let ids = ids[block][lane & 7];
-                if !state.admits(hit.t, path, ids.primitive) {
-                    continue;
-                }
-                offer(hit, ids, gas, &here, state, path, programs);
-                if state.ended {
-                    return f32::NEG_INFINITY;
+                let Some(hit) = triangle::hit(&frame.shear, block.triangle(lane)) else { continue };
+                let primitive = block.primitives[lane & 7];
+                if state.admits(hit.t, path, primitive) {
+                    offer(hit, primitive, gas, &here, state, path, programs);
+                    if state.ended {
+                        return f32::NEG_INFINITY;
+                    }
                 }
             }
             if state.tmax < before { frame.depth_max(state.tmax) } else { limit }
@@ -138,18 +131,18 @@ impl<'a, P: Programs> Level<'_, 'a, P> {
     }
 
     #[inline(always)]
-    fn custom<S: Simd>(self, simd: S, gas: &'a Gas, records: &[u32], frame: &Frame) {
+    fn custom<S: Simd>(self, simd: S, gas: &'a Gas, frame: &Frame) {
         let Self { here, state, path, programs, .. } = self;
         let limit = frame.depth_max(state.tmax);
         let query = state.query;
         walk(simd, &gas.bvh, &frame.boxes, limit, |primitive, limit| {
-            let record = records[primitive as usize];
+            let record = gas.record_of(primitive);
             let verdict = any_hit_verdict(gas.flags_of(record), here.flags, query.flags);
             if verdict == Verdict::Cull {
                 return limit;
             }
             let before = state.tmax;
-            let site = site(Ids { primitive, record }, gas, &here, &query, path);
+            let site = site(primitive, record, gas, &here, &query, path);
             let mut reporter = Reporter {
                 state: &mut *state,
                 site: &site,
@@ -207,14 +200,15 @@ impl<'a, P: Programs> Level<'_, 'a, P> {
 #[inline]
 fn offer<'a, P: Programs>(
     hit: TriangleHit,
-    ids: Ids,
+    primitive: u32,
     gas: &'a Gas,
     here: &Place,
     state: &mut State<'a>,
     path: &InstancePath<'a>,
     programs: &mut P,
 ) {
-    let geometry = gas.flags_of(ids.record);
+    let record = gas.record_of(primitive);
+    let geometry = gas.flags_of(record);
     let verdict = any_hit_verdict(geometry, here.flags, state.query.flags);
     let front = hit.front != here.flags.contains(InstanceFlags::FLIP_TRIANGLE_FACING);
     if verdict == Verdict::Cull || face_culled(geometry, here.flags, state.query.flags, front) {
@@ -224,14 +218,14 @@ fn offer<'a, P: Programs>(
         t: hit.t,
         hit_kind: if front { FRONT_FACE } else { BACK_FACE },
         attributes: [hit.u.to_bits(), hit.v.to_bits(), 0, 0, 0, 0, 0, 0],
-        primitive: ids.primitive,
-        record: ids.record,
+        primitive,
+        record,
         instance_offset: here.sbt_offset,
         gas,
     };
     let answer = if verdict == Verdict::AnyHit {
         programs.any_hit(&Candidate {
-            site: site(ids, gas, here, &state.query, path),
+            site: site(primitive, record, gas, here, &state.query, path),
             t: found.t,
             hit_kind: found.hit_kind,
             attributes: found.attributes,
@@ -242,11 +236,18 @@ fn offer<'a, P: Programs>(
     state.settle(answer, found, path);
 }
 
-fn site<'s>(ids: Ids, gas: &'s Gas, here: &Place, query: &'s RayQuery, path: &'s InstancePath<'s>) -> Site<'s> {
+fn site<'s>(
+    primitive: u32,
+    record: u32,
+    gas: &'s Gas,
+    here: &Place,
+    query: &'s RayQuery,
+    path: &'s InstancePath<'s>,
+) -> Site<'s> {
     Site {
-        primitive_index: gas.primitive_index(ids.primitive),
-        sbt_gas_index: ids.record,
-        sbt_index: sbt_index(query, here.sbt_offset, ids.record),
+        primitive_index: gas.primitive_index(primitive),
+        sbt_gas_index: record,
+        sbt_index: sbt_index(query, here.sbt_offset, record),
         gas,
         path,
         query,

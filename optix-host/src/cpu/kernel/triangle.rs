@@ -30,23 +30,25 @@
 use super::bvh::{Lanes, WIDTH};
 use super::ray::ShearRay;
 
-/// Eight triangles as structure of arrays: `corners[corner][axis][lane]`.
+/// Eight triangles as structure of arrays, `corners[corner][axis][lane]`, in five cache lines: a ray that comes here
+/// mostly finds the block in none of the near caches, and then waits for its lines, not for arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub struct Block {
     pub corners: [[Lanes; 3]; 3],
+    /// Counted over all inputs of the structure.
+    pub primitives: [u32; WIDTH],
 }
 
 impl Block {
-    /// Up to eight triangles; unused lanes repeat the first.
-    pub fn new(triangles: &[[[f32; 3]; 3]]) -> Self {
-        Self {
-            corners: std::array::from_fn(|corner| {
-                std::array::from_fn(|axis| {
-                    Lanes(std::array::from_fn(|lane| triangles[if lane < triangles.len() { lane } else { 0 }][corner][axis]))
-                })
-            }),
-        }
+    /// Up to eight of the `triangles`; unused lanes repeat the first.
+    pub fn new(primitives: &[u32], triangles: &[[[f32; 3]; 3]]) -> Self {
+        let primitives: [u32; WIDTH] =
+            std::array::from_fn(|lane| primitives.get(lane).copied().unwrap_or(primitives[0]));
+        let corners = std::array::from_fn(|corner| {
+            std::array::from_fn(|axis| Lanes(primitives.map(|p| triangles[p as usize][corner][axis])))
+        });
+        Self { corners, primitives }
     }
 
     #[inline(always)]

@@ -291,7 +291,7 @@ fn vector_kernels_are_bit_identical() {
         let Some(frame) = Frame::new(&cases[0].1, 0.0, &boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(b)), 1.0) else {
             continue;
         };
-        let block = Block::new(&triangles);
+        let block = Block::new(&[0, 1, 2, 3, 4, 5, 6, 7], &triangles);
         let limit = if i % 2 == 0 { f32::INFINITY } else { frame.depth_max(1.0) };
         let task = || Both { block: &block, bvh: &gas.bvh, frame: &frame, limit };
         let (a, b) = (avx2.run(task()), Portable.run(task()));
