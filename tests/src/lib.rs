@@ -1,1 +1,5 @@
-//! Tests across crates; nothing to use.
+//! What the tests across crates and backends share.
+
+pub mod devices;
+pub mod meshes;
+pub mod probe;

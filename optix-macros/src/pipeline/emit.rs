@@ -4,7 +4,7 @@ use super::check::path;
 use super::parse::{Geometry, Group, Pipeline, Programs};
 use crate::program::Kind;
 use crate::support::{allow, moved, name, place, place_of};
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::Path;
 
@@ -36,23 +36,25 @@ impl Entries<'_> {
         let device = format_ident!("{entry_name}");
         let host = format_ident!("__run_{}", self.names.len() - 1);
         let body = format_ident!("{}", kind.attribute());
-        let span = place_of(program);
-        let (moved_krate, bound) = (moved(krate, span), moved(bound, span));
-        let run = quote_spanned!(span=> <#program as #moved_krate::program::#bound>::run);
+        let (run, span) = (of_program(krate, program, bound, "run"), program_span(program));
+        let run = match kind {
+            Kind::RayGen => quote_spanned!(span=> #run(&__context, __record)),
+            _ => quote_spanned!(span=> #run(&__context, __record, __input)),
+        };
         let enter = quote!(#krate::program::entry::#body::<#types>);
         let call = match kind {
             Kind::RayGen => quote! {
                 let (__context, __record) = unsafe { #enter(&__cx) };
-                #run(&__context, __record);
+                #run;
                 #krate::ray::Decision::Accept
             },
             Kind::AnyHit => quote! {
                 let (__context, __record, __input) = unsafe { #enter(&__cx) };
-                #krate::program::entry::decide(&__cx, #run(&__context, __record, __input))
+                #krate::program::entry::decide(&__cx, #run)
             },
             _ => quote! {
                 let (__context, __record, __input) = unsafe { #enter(&__cx) };
-                #krate::program::entry::give(&__cx, #run(&__context, __record, __input))
+                #krate::program::entry::give(&__cx, #run)
             },
         };
         self.items.extend(quote! {
@@ -88,6 +90,22 @@ fn symbol(path: &impl ToTokens) -> String {
     symbol.trim_matches('_').to_owned()
 }
 
+/// `<program as krate::program::bound>::item`, all of it where the program's name is: rustc reports a program that does not
+/// fit in several places, which are one message if they have one span.
+fn of_program(krate: &Path, program: &Path, bound: &TokenStream, item: &str) -> TokenStream {
+    let span = program_span(program);
+    let item = format_ident!("{item}");
+    moved(&quote!(<#program as #krate::program::#bound>::#item), span)
+}
+
+/// Where a program's own name is.
+fn program_span(program: &Path) -> Span {
+    match program.segments.last() {
+        Some(last) => place_of(&last.ident),
+        None => place_of(program),
+    }
+}
+
 fn option(value: Option<TokenStream>) -> TokenStream {
     match value {
         Some(value) => quote!(::core::option::Option::Some(#value)),
@@ -117,11 +135,9 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
     let mut impls = TokenStream::new();
 
     let raygen: Vec<_> = pipeline.raygen.iter().enumerate().map(|(i, program)| {
-        let span = place_of(program);
         let bound = quote!(RayGenProgram<#ident>);
-        let (moved_krate, moved_bound) = (moved(krate, span), moved(&bound, span));
-        let record = quote_spanned!(span=> <#program as #moved_krate::program::#moved_bound>::Record);
-        let entry = entries.add(Kind::RayGen, program, &quote!(#ident, #record), &bound, &[]);
+        let record = of_program(krate, program, &bound, "Record");
+        let entry = entries.add(Kind::RayGen, program, &quote!(#ident, _), &bound, &[]);
         let index = i as u32;
         impls.extend(quote! {
             #[automatically_derived]
@@ -138,7 +154,7 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
         let miss = ray.miss.as_ref().map(|program| {
             let record = miss_record(pipeline, payload, Some(program));
             let bound = quote!(MissProgram<#ident, #payload>);
-            let types = quote!(#ident, #payload, #record);
+            let types = quote!(#ident, #payload, _);
             let entry = entries.add(Kind::Miss, program, &types, &bound, &[symbol(payload)]);
             quote!(#krate::host::ProgramDescription { entry: #entry, record: #krate::host::RecordLayout::of::<#record>() })
         });
@@ -198,11 +214,8 @@ fn describe_group(pipeline: &Pipeline, group: &Group, entries: &mut Entries<'_>,
     let (ident, krate, record) = (&pipeline.ident, &pipeline.krate, &group.record);
     let hits_of = |programs: &Programs| match &programs.intersection {
         Some(program) => {
-            let span = place_of(program);
-            let krate = moved(krate, span);
-            let types = [ident.to_token_stream(), record.to_token_stream(), programs.ray.to_token_stream()];
-            let types = types.iter().map(|t| moved(t, span));
-            quote_spanned!(span=> <#program as #krate::program::IntersectionProgram<#(#types),*>>::Attributes)
+            let ray = &programs.ray;
+            of_program(krate, program, &quote!(IntersectionProgram<#ident, #record, #ray>), "Attributes")
         }
         None => quote!(#krate::attributes::Triangles),
     };
@@ -271,9 +284,7 @@ fn miss_record(pipeline: &Pipeline, payload: &syn::Type, program: Option<&Path>)
     let (ident, krate) = (&pipeline.ident, &pipeline.krate);
     match program {
         Some(program) => {
-            let span = place_of(program);
-            let (krate, bound) = (moved(krate, span), moved(&quote!(MissProgram<#ident, #payload>), span));
-            quote_spanned!(span=> <#program as #krate::program::#bound>::Record)
+            of_program(krate, program, &quote!(MissProgram<#ident, #payload>), "Record")
         }
         None => quote!(()),
     }

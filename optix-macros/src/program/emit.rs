@@ -81,7 +81,10 @@ pub fn emit(program: &Program) -> TokenStream {
             let (__decision, __part) = #call;
             (__decision, #give(__part))
         },
-        (Kind::AnyHit, None) if program.returns_unit_part => quote!(#call),
+        (Kind::AnyHit, None) if program.returns_unit_part => quote! {
+            let (__decision, ()) = #call;
+            (__decision, #nothing)
+        },
         (Kind::AnyHit, None) => quote!((#call, #nothing)),
         (_, Some(give)) => quote!(#give(#call)),
         (_, None) => quote! {

@@ -88,7 +88,7 @@ pub struct Surface {}
 
 /// Traces the ray of this launch index.
 #[raygen]
-fn probe(rg: &RayGen<Probe>) {
+pub fn probe(rg: &RayGen<Probe>) {
     let frame = rg.params();
     let index = rg.launch_index().x;
     let hit = nearest(rg, ray_of(frame.rays().get(index)));
@@ -99,7 +99,7 @@ fn probe(rg: &RayGen<Probe>) {
 
 /// Traces the ray of this launch index and, from where it hits, secondary rays to both sides in all directions.
 #[raygen]
-fn respawn(rg: &RayGen<Probe>) {
+pub fn respawn(rg: &RayGen<Probe>) {
     let frame = rg.params();
     let index = rg.launch_index().x;
     let first = nearest(rg, ray_of(frame.rays().get(index)));

@@ -96,8 +96,9 @@ impl Bvh {
         }
         let mut plan = Plan::new(Binary::by_surface_area(boxes, &active), shape);
         if plan.depth() > MAX_DEPTH {
-            // Sizes that grow exponentially make a chain of any hierarchy with good costs; the stack must hold anyway.
-            plan = Plan::new(Binary::by_median(boxes, &active), shape);
+            // Sizes that grow exponentially make a chain of any hierarchy of low cost, and the stack must hold anyway:
+            // of 2^29 primitives, the most there may be, this one has 10 levels.
+            plan = Plan::by_levels(Binary::by_median(boxes, &active), shape);
         }
 
         let mut nodes = vec![Node::EMPTY];

@@ -34,7 +34,8 @@ impl Plan {
         let mut cost = vec![[0f32; WIDTH - 1]; count];
         let mut split = vec![[0u8; WIDTH - 1]; count];
         for n in (0..count).rev() {
-            let area = (tree.bounds[n].half_area() * scale) as f32;
+            // The second part makes the fewest nodes the best where there is no area at all.
+            let area = (tree.bounds[n].half_area() * scale) as f32 + 1e-7;
             let as_leaf = area * shape.leaf_cost;
             let Link::Inner(left, right) = tree.links[n] else {
                 cost[n] = [as_leaf; WIDTH - 1];
@@ -66,6 +67,17 @@ impl Plan {
             cost[n] = row;
         }
         Self { tree, size, split }
+    }
+
+    /// Three levels of the binary tree to each wide one, whatever the cost.
+    pub fn by_levels(tree: Binary, shape: Shape) -> Self {
+        let mut plan = Self::new(tree, shape);
+        for (n, split) in plan.split.iter_mut().enumerate() {
+            if plan.size[n] > shape.leaf_size {
+                *split = [4, 1, 0, 2, 0, 0, 0];
+            }
+        }
+        plan
     }
 
     pub fn root(&self) -> u32 {

@@ -27,6 +27,15 @@ impl<'a> InstancePath<'a> {
         self.len -= 1;
     }
 
+    /// Becomes `other`, of the same root; copies no more than its length.
+    #[inline]
+    pub(super) fn set(&mut self, other: &Self) {
+        self.len = other.len;
+        for (to, from) in self.indices.iter_mut().zip(other.indices()) {
+            *to = *from;
+        }
+    }
+
     /// The structure given to the trace.
     pub fn root(&self) -> &'a Accel {
         self.root

@@ -126,7 +126,7 @@ impl Frame {
     ///
     /// `slack` multiplies the margin: 1 for a structure of primitives, more where boxes stand for transformed content
     /// (see [`Ias`](super::Ias)).
-    #[inline]
+    #[inline(always)]
     pub fn new(ray: &Ray, tmin: f32, bounds: &Aabb, slack: f32) -> Option<Self> {
         let (origin, direction) = (Vec3A::from_array(ray.origin), Vec3A::from_array(ray.direction));
         let (low, high) = (Vec3A::from_array(bounds.min), Vec3A::from_array(bounds.max));
@@ -181,7 +181,7 @@ impl Frame {
     }
 
     /// A depth that no hit with `t <= tmax` exceeds: `t` was rounded from its depth, by half an ulp.
-    #[inline]
+    #[inline(always)]
     pub fn depth_max(&self, tmax: f32) -> f32 {
         let t = f64::from(tmax) + SMALLEST;
         (t * self.shear.major.abs() * (1.0 + DEPTH_SLACK)) as f32

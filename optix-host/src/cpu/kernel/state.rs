@@ -27,12 +27,15 @@ pub struct State<'a> {
     pub tmax: f32,
     /// Set by `AnyHit::Terminate` and `TERMINATE_ON_FIRST_HIT`.
     pub ended: bool,
-    closest: Option<(Found<'a>, InstancePath<'a>)>,
+    closest: Option<Found<'a>>,
+    /// Where the closest hit is.
+    at: InstancePath<'a>,
 }
 
 impl<'a> State<'a> {
-    pub fn new(query: RayQuery) -> Self {
-        Self { query, tmax: query.tmax, ended: false, closest: None }
+    #[inline(always)]
+    pub fn new(query: RayQuery, at: InstancePath<'a>) -> Self {
+        Self { query, tmax: query.tmax, ended: false, closest: None, at }
     }
 
     /// Whether a candidate at `t` may become the closest hit: it lies in the closed interval, and if it ties with the
@@ -43,7 +46,7 @@ impl<'a> State<'a> {
             return false;
         }
         match &self.closest {
-            Some((found, at)) if t == found.t => (path.indices(), primitive) < (at.indices(), found.primitive),
+            Some(found) if t == found.t => (path.indices(), primitive) < (self.at.indices(), found.primitive),
             _ => true,
         }
     }
@@ -56,12 +59,14 @@ impl<'a> State<'a> {
         }
         self.tmax = found.t;
         self.ended = answer == AnyHit::Terminate || self.query.flags & ray_flags::TERMINATE_ON_FIRST_HIT != 0;
-        self.closest = Some((found, *path));
+        self.closest = Some(found);
+        self.at.set(path);
         true
     }
 
+    #[inline(always)]
     pub fn into_hit(self) -> Option<Hit<'a>> {
-        let (found, path) = self.closest?;
+        let found = self.closest?;
         Some(Hit {
             t: found.t,
             hit_kind: found.hit_kind,
@@ -70,7 +75,7 @@ impl<'a> State<'a> {
             sbt_gas_index: found.record,
             sbt_index: sbt_index(&self.query, found.instance_offset, found.record),
             gas: found.gas,
-            path,
+            path: self.at,
         })
     }
 }

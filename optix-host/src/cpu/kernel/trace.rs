@@ -52,8 +52,8 @@ pub fn trace_with<'a, S: Simd, P: Programs>(
     if ray.tmin.is_nan() || !(query.tmin <= query.tmax) {
         return None;
     }
-    let mut state = State::new(query);
     let mut path = InstancePath::new(accel);
+    let mut state = State::new(query, path);
     let here = Place {
         ray: Ray { origin: ray.origin, direction: ray.direction },
         exact: [ray.origin, ray.direction].map(|v| v.map(f64::from)),
