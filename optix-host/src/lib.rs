@@ -17,6 +17,7 @@ pub mod report;
 pub mod sbt;
 pub mod scene;
 
+pub use glam;
 pub use device::{BackendKind, Device, OptixOptions};
 pub use error::Error;
 pub use optix_device_rs::host::{Buffer, Buffer2d, MemoryError, World};

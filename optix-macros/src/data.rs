@@ -64,10 +64,14 @@ pub fn copy_bound(ident: &Ident) -> TokenStream {
 /// Uses every field, so that no lint calls a struct or field dead that only the other machine reads.
 pub fn touch(model: &Struct) -> TokenStream {
     let ident = &model.ident;
-    let values: Vec<_> = model.fields.iter().map(|f| {
-        let member = &f.member;
-        quote!(__value.#member)
-    }).collect();
+    let values: Vec<_> = model
+        .fields
+        .iter()
+        .map(|f| {
+            let member = &f.member;
+            quote!(__value.#member)
+        })
+        .collect();
     let rebuilt = construct(ident, &model.fields, &values);
     quote! {
         #[allow(dead_code)]
@@ -109,7 +113,9 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
     if model.form == Form::Tuple {
         errors.at(
             ident,
-            format!("`{ident}` holds views of device memory, so its fields need names: its host twin has the same ones"),
+            format!(
+                "`{ident}` holds views of device memory, so its fields need names: its host twin has the same ones"
+            ),
         );
         return Twin { host: ident.clone(), items: TokenStream::new() };
     }
@@ -126,26 +132,30 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
         };
         quote!(#docs #vis #member: #ty)
     });
-    let clones: Vec<_> = model.fields.iter().map(|field| {
-        let member = &field.member;
-        if field.view {
-            quote!(::core::clone::Clone::clone(&self.#member))
-        } else {
-            quote!(self.#member)
-        }
-    }).collect();
+    let clones: Vec<_> = model
+        .fields
+        .iter()
+        .map(|field| {
+            let member = &field.member;
+            if field.view { quote!(::core::clone::Clone::clone(&self.#member)) } else { quote!(self.#member) }
+        })
+        .collect();
     let clone = construct(&host, &model.fields, &clones);
-    let lowered: Vec<_> = model.fields.iter().map(|field| {
-        let (member, ty) = (&field.member, &field.ty);
-        if field.view {
-            let span = place_of(ty);
-            let krate = moved(krate, span);
-            let of = quote_spanned!(span=> <#ty as #krate::host::View>::of);
-            quote!(#of(&self.#member, __keep))
-        } else {
-            quote!(self.#member)
-        }
-    }).collect();
+    let lowered: Vec<_> = model
+        .fields
+        .iter()
+        .map(|field| {
+            let (member, ty) = (&field.member, &field.ty);
+            if field.view {
+                let span = place_of(ty);
+                let krate = moved(krate, span);
+                let of = quote_spanned!(span=> <#ty as #krate::host::View>::of);
+                quote!(#of(&self.#member, __keep))
+            } else {
+                quote!(self.#member)
+            }
+        })
+        .collect();
     let lowered = construct(ident, &model.fields, &lowered);
     let doc = format!(
         "What an application fills in for a [`{}`]: in each view's place the owner of the memory it shows.",

@@ -117,16 +117,21 @@ fn field_value(model: &Struct, field: &Field) -> TokenStream {
 /// `Frame::MAX_BOUNCES` for `#[bound] max_bounces`.
 fn bounds(model: &Struct) -> TokenStream {
     let (krate, ident, allow) = (&model.krate, &model.ident, allow());
-    let consts: Vec<_> = model.fields.iter().filter(|f| f.bound.is_some() && !f.view).filter_map(|field| {
-        let (vis, ty) = (&field.vis, &field.ty);
-        let name = format_ident!("{}", name(ident_of(field)?).to_uppercase(), span = field.member.span());
-        let doc = format!("Field `{}`, to bind to a constant when the pipeline is built.", field.name());
-        let value = field_value(model, field);
-        Some(quote! {
-            #[doc = #doc]
-            #vis const #name: #krate::params::Bound<#ident, #ty> = #krate::params::Bound::new(#value);
+    let consts: Vec<_> = model
+        .fields
+        .iter()
+        .filter(|f| f.bound.is_some() && !f.view)
+        .filter_map(|field| {
+            let (vis, ty) = (&field.vis, &field.ty);
+            let name = format_ident!("{}", name(ident_of(field)?).to_uppercase(), span = field.member.span());
+            let doc = format!("Field `{}`, to bind to a constant when the pipeline is built.", field.name());
+            let value = field_value(model, field);
+            Some(quote! {
+                #[doc = #doc]
+                #vis const #name: #krate::params::Bound<#ident, #ty> = #krate::params::Bound::new(#value);
+            })
         })
-    }).collect();
+        .collect();
     if consts.is_empty() {
         return TokenStream::new();
     }
@@ -200,7 +205,8 @@ fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
     let view = format_ident!("{}View", name, span = ident.span());
     let symbol = format!("optix_params_{name}_{}", place(ident.span(), &name));
     let declare = format!(".visible .const .align {{a}} .b8 {symbol}[{{n}}];");
-    let (word, byte) = (format!("ld.const.b32 {{v}}, [{symbol}+{{at}}];"), format!("ld.const.u8 {{v}}, [{symbol}+{{at}}];"));
+    let (word, byte) =
+        (format!("ld.const.b32 {{v}}, [{symbol}+{{at}}];"), format!("ld.const.u8 {{v}}, [{symbol}+{{at}}];"));
     let address = format!("{{{{ .reg .b64 a; mov.b64 a, {symbol}; cvta.const.u64 {{v}}, a; }}}}");
     let fields = model.fields.iter().map(|field| field_value(model, field));
     quote! {

@@ -63,8 +63,8 @@ fn is_view(ty: &Type) -> bool {
 fn is_plain(ty: &Type) -> bool {
     const PLAIN: [&str; 29] = [
         "u8", "i8", "u16", "i16", "u32", "i32", "u64", "i64", "f32", "f64", "bool", "usize", "isize", "Vec2", "Vec3",
-        "Vec3A", "Vec4", "UVec2", "UVec3", "UVec4", "IVec2", "IVec3", "IVec4", "Quat", "Mat3", "Mat4", "Affine3A", "char",
-        "str",
+        "Vec3A", "Vec4", "UVec2", "UVec3", "UVec4", "IVec2", "IVec3", "IVec4", "Quat", "Mat3", "Mat4", "Affine3A",
+        "char", "str",
     ];
     match ungroup(ty) {
         Type::Path(path) => path.path.segments.last().is_some_and(|s| PLAIN.iter().any(|p| s.ident == p)),
@@ -100,15 +100,20 @@ impl Struct {
             Fields::Unit => Form::Unit,
             Fields::Unnamed(_) if tuples => Form::Tuple,
             Fields::Unnamed(fields) => {
-                errors.at(
-                    fields,
-                    format!("{what} needs named fields: write `struct {} {{ name: Type }}`", input.ident),
-                );
+                errors
+                    .at(fields, format!("{what} needs named fields: write `struct {} {{ name: Type }}`", input.ident));
                 return None;
             }
         };
         let fields = data.fields.iter().enumerate().map(|(i, field)| Field::parse(i, field, errors)).collect();
-        Some(Self { attrs: input.attrs.clone(), vis: input.vis.clone(), ident: input.ident.clone(), form, fields, krate })
+        Some(Self {
+            attrs: input.attrs.clone(),
+            vis: input.vis.clone(),
+            ident: input.ident.clone(),
+            form,
+            fields,
+            krate,
+        })
     }
 
     /// The name.

@@ -23,7 +23,9 @@ fn places(model: &Struct) -> Places {
         let (member, ty) = (&field.member, &field.ty);
         let (at, next) = (format_ident!("__AT_{i}"), format_ident!("__AT_{}", i + 1));
         if i == 0 {
-            consts.extend(quote!(const __AT_0: usize = 0;));
+            consts.extend(quote!(
+                const __AT_0: usize = 0;
+            ));
         }
         let span = place_of(ty);
         let krate = moved(krate, span);

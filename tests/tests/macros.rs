@@ -204,13 +204,8 @@ fn twins_lower_to_views_and_keep_their_owners() {
 fn semantics_are_one_word_per_register() {
     let light = CALLER_READ | CLOSESTHIT_WRITE | MISS_WRITE;
     let seed = CALLER_READ | CALLER_WRITE | CLOSESTHIT_READ | CLOSESTHIT_WRITE;
-    let mode = CALLER_READ
-        | CALLER_WRITE
-        | ANYHIT_READ
-        | ANYHIT_WRITE
-        | INTERSECTION_READ
-        | INTERSECTION_WRITE
-        | MISS_READ;
+    let mode =
+        CALLER_READ | CALLER_WRITE | ANYHIT_READ | ANYHIT_WRITE | INTERSECTION_READ | INTERSECTION_WRITE | MISS_READ;
     assert_eq!(Radiance::SEMANTICS, [light, light, light, seed, seed, mode]);
     assert_eq!((Radiance::WORDS, Full::WORDS, Probe::WORDS), (6, 32, 0));
     assert_eq!(Full::SEMANTICS, [CALLER_WRITE | CLOSESTHIT_READ; 32]);
@@ -251,12 +246,7 @@ fn words_round_trip_bit_for_bit_and_touch_nothing_else() {
         let float = f32::from_bits(b as u32);
         let value = Pair(
             f64::from_bits(b),
-            Spectrum {
-                bands: [float, 1.0, -float],
-                first: b as u16,
-                id: b.rotate_left(17),
-                valid: b & 1 == 1,
-            },
+            Spectrum { bands: [float, 1.0, -float], first: b as u16, id: b.rotate_left(17), valid: b & 1 == 1 },
         );
         let at = i % (32 - Pair::COUNT);
         let mut words = WordBuffer([0xdead_beef; 32]);
@@ -326,11 +316,7 @@ fn camera(rg: &RayGen<Tracer>, record: &Paint) {
 fn r#loop(_: &RayGen<Tracer>) {}
 
 #[intersection]
-fn ball(
-    _: &Intersection<Tracer, BallHit>,
-    _: &Marker,
-    ray: RadianceAtIntersection,
-) -> RadianceFromIntersection {
+fn ball(_: &Intersection<Tracer, BallHit>, _: &Marker, ray: RadianceAtIntersection) -> RadianceFromIntersection {
     RadianceFromIntersection { r#mod: ray.r#mod + 1 }
 }
 
@@ -401,9 +387,8 @@ fn a_pipeline_describes_itself() {
     assert_eq!(groups[0].geometry, GeometryKind::Triangles);
     assert_eq!((groups[0].attribute_words, groups[1].attribute_words), (2, 6));
     // In the order of `rays`, not in the order written.
-    let functions = |i: usize| {
-        groups[i].rays.iter().map(|r| r.closesthit.map_or("", |e| e.function)).collect::<Vec<_>>()
-    };
+    let functions =
+        |i: usize| groups[i].rays.iter().map(|r| r.closesthit.map_or("", |e| e.function)).collect::<Vec<_>>();
     assert_eq!(functions(0), ["self::library::paint", "full", ""]);
     assert_eq!(functions(1), ["library::paint", "", "any_ray"]);
 
@@ -422,11 +407,7 @@ fn a_pipeline_describes_itself() {
 }
 
 /// Runs an entry on a frame; gives its decision and the payload.
-fn run(
-    entry: optix_device_rs::host::Entry,
-    record: &Paint,
-    payload: WordBuffer,
-) -> (Decision, WordBuffer) {
+fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer) -> (Decision, WordBuffer) {
     use optix_device_rs::host::{Executor, Frame, HitState};
     use optix_device_rs::machine::TraceCall;
 
@@ -452,13 +433,8 @@ fn run(
         }
     }
 
-    let settings = Settings {
-        on: true,
-        r#type: 3,
-        camera: Pinhole { flags: 0, eye: Vec3::Z },
-        table: [1, 2, 3],
-        scale: 2.0,
-    };
+    let settings =
+        Settings { on: true, r#type: 3, camera: Pinhole { flags: 0, eye: Vec3::Z }, table: [1, 2, 3], scale: 2.0 };
     let payload = std::cell::Cell::new(payload);
     let frame = Frame {
         executor: &Alone,

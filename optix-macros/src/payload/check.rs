@@ -52,11 +52,9 @@ fn reads(name: &str, access: &Access, errors: &mut Errors) {
             Party::ClosestHit | Party::Miss => {
                 let traversal = [Party::Intersection, Party::AnyHit].into_iter().find(|p| written(*p));
                 let why = match traversal {
-                    Some(writer) => format!(
-                        ": `{}` does not run for every ray that comes to {}",
-                        writer.keyword(),
-                        party.phrase()
-                    ),
+                    Some(writer) => {
+                        format!(": `{}` does not run for every ray that comes to {}", writer.keyword(), party.phrase())
+                    }
                     None => ": only the caller comes before it on every path".to_owned(),
                 };
                 error(
@@ -94,6 +92,54 @@ fn writes(name: &str, access: &Access, errors: &mut Errors) {
                     party.keyword()
                 ),
             ));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::model::Parties;
+    use super::*;
+
+    /// Runs every path of a ray with up to three candidates; says whether a read finds nothing written.
+    fn unwritten(read: &[Party], write: &[Party]) -> bool {
+        let mut traversals: Vec<Vec<Party>> = vec![vec![]];
+        for _ in 0..3 {
+            let longer = traversals.clone().into_iter().flat_map(|t| {
+                [Party::Intersection, Party::AnyHit].map(|party| [t.as_slice(), &[party]].concat())
+            });
+            traversals.extend(longer.collect::<Vec<_>>());
+        }
+        let ends = [Party::ClosestHit, Party::Miss];
+        traversals.iter().flat_map(|t| ends.map(|end| [t.as_slice(), &[end, Party::Caller]].concat())).any(|path| {
+            let mut written = write.contains(&Party::Caller);
+            path.into_iter().any(|party| {
+                let fails = read.contains(&party) && !written;
+                written |= write.contains(&party);
+                fails
+            })
+        })
+    }
+
+    fn subsets() -> impl Iterator<Item = Vec<Party>> {
+        (1..32u32).map(|bits| Party::ALL.into_iter().enumerate().filter(|(i, _)| bits >> i & 1 == 1).map(|(_, p)| p).collect())
+    }
+
+    #[test]
+    fn the_proof_agrees_with_running_every_path() {
+        for read in subsets() {
+            for write in subsets() {
+                let parties = |list: &[Party]| Parties(list.iter().map(|p| (*p, Span::call_site())).collect());
+                let access = Access { read: parties(&read), write: parties(&write), complete: true };
+                let mut errors = Errors::default();
+                reads("field", &access, &mut errors);
+                assert_eq!(!errors.is_empty(), unwritten(&read, &write), "read {read:?}, write {write:?}");
+
+                let mut errors = Errors::default();
+                writes("field", &access, &mut errors);
+                let last = write.contains(&Party::ClosestHit) || write.contains(&Party::Miss);
+                assert_eq!(!errors.is_empty(), last && !read.contains(&Party::Caller));
+            }
         }
     }
 }

@@ -49,7 +49,8 @@ pub fn emit(payload: &Payload) -> TokenStream {
     let (mut places, mut semantics) = (TokenStream::new(), TokenStream::new());
     for (i, (field, access)) in shape.fields.iter().zip(&payload.access).enumerate() {
         let ty = &field.ty;
-        let (at, count, next) = (format_ident!("__AT_{i}"), format_ident!("__COUNT_{i}"), format_ident!("__AT_{}", i + 1));
+        let (at, count, next) =
+            (format_ident!("__AT_{i}"), format_ident!("__COUNT_{i}"), format_ident!("__AT_{}", i + 1));
         let span = place_of(ty);
         let krate = moved(krate, span);
         let words = quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT);

@@ -187,7 +187,10 @@ impl Access {
             for word in ["write", "read"].into_iter().filter(|w| !seen.contains(w)) {
                 access.complete = false;
                 let (why, way) = if word == "write" {
-                    ("nobody writes it", "so nobody has a value to read: add `write(..)`, with `caller` for a start value")
+                    (
+                        "nobody writes it",
+                        "so nobody has a value to read: add `write(..)`, with `caller` for a start value",
+                    )
                 } else {
                     ("nobody reads it", "so it takes registers for nothing: add `read(..)`, or remove the field")
                 };

@@ -14,13 +14,19 @@ pub fn check(pipeline: &Pipeline, errors: &mut Errors) {
     if pipeline.params.is_none() {
         errors.at(
             &pipeline.ident,
-            format!("pipeline `{}` has no launch parameters: add `params: Frame`, a struct with `#[launch_params]`", pipeline.ident),
+            format!(
+                "pipeline `{}` has no launch parameters: add `params: Frame`, a struct with `#[launch_params]`",
+                pipeline.ident
+            ),
         );
     }
     if pipeline.raygen.is_empty() {
         errors.at(
             &pipeline.ident,
-            format!("pipeline `{}` has no ray-generation program, where a launch begins: add `raygen: [camera]`", pipeline.ident),
+            format!(
+                "pipeline `{}` has no ray-generation program, where a launch begins: add `raygen: [camera]`",
+                pipeline.ident
+            ),
         );
     }
     for (i, program) in pipeline.raygen.iter().enumerate() {
@@ -84,7 +90,10 @@ fn groups(pipeline: &Pipeline, errors: &mut Errors) {
             if !pipeline.rays.iter().any(|r| text(&r.payload) == text(&programs.ray)) {
                 errors.at(
                     &programs.ray,
-                    format!("`{ray}` is not among the `rays` of `{}`: add `{ray} {{ miss: .. }}` there", pipeline.ident),
+                    format!(
+                        "`{ray}` is not among the `rays` of `{}`: add `{ray} {{ miss: .. }}` there",
+                        pipeline.ident
+                    ),
                 );
             }
             match (group.geometry, &programs.intersection) {

@@ -19,7 +19,14 @@ struct Entries<'a> {
 impl Entries<'_> {
     /// Makes the entry of a program on both machines; gives the host's `Entry`.
     /// `types` are those of the entry, `bound` the trait that has the program's function.
-    fn add(&mut self, kind: Kind, program: &Path, types: &TokenStream, bound: &TokenStream, of: &[String]) -> TokenStream {
+    fn add(
+        &mut self,
+        kind: Kind,
+        program: &Path,
+        types: &TokenStream,
+        bound: &TokenStream,
+        of: &[String],
+    ) -> TokenStream {
         let krate = &self.pipeline.krate;
         let mut stem = format!("__{}__{}_{}", kind.attribute(), name(&self.pipeline.ident), symbol(program));
         for part in of {
@@ -126,12 +133,8 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
     let Pipeline { ident, krate, params, .. } = pipeline;
     let pipeline_name = name(ident);
     let (structure, allow) = (structure(pipeline), allow());
-    let mut entries = Entries {
-        pipeline,
-        place: place(ident.span(), &pipeline_name),
-        items: TokenStream::new(),
-        names: Vec::new(),
-    };
+    let mut entries =
+        Entries { pipeline, place: place(ident.span(), &pipeline_name), items: TokenStream::new(), names: Vec::new() };
     let mut impls = TokenStream::new();
 
     let raygen: Vec<_> = pipeline.raygen.iter().enumerate().map(|(i, program)| {
@@ -210,7 +213,12 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
 }
 
 /// A hit group's description, with its entries and checks.
-fn describe_group(pipeline: &Pipeline, group: &Group, entries: &mut Entries<'_>, impls: &mut TokenStream) -> TokenStream {
+fn describe_group(
+    pipeline: &Pipeline,
+    group: &Group,
+    entries: &mut Entries<'_>,
+    impls: &mut TokenStream,
+) -> TokenStream {
     let (ident, krate, record) = (&pipeline.ident, &pipeline.krate, &group.record);
     let hits_of = |programs: &Programs| match &programs.intersection {
         Some(program) => {
@@ -221,46 +229,52 @@ fn describe_group(pipeline: &Pipeline, group: &Group, entries: &mut Entries<'_>,
     };
     let mut first: Option<&Programs> = None;
     // In the order of `rays`, which is the order of the records.
-    let rays: Vec<_> = pipeline.rays.iter().filter_map(|ray| {
-        let programs = group.rays.iter().find(|p| super::check::text(&p.ray) == super::check::text(&ray.payload))?;
-        let (ray, hits) = (&programs.ray, hits_of(programs));
-        match (first, &programs.intersection) {
-            (Some(first), Some(program)) => {
-                if first.intersection.as_ref().is_some_and(|f| super::check::text(f) != super::check::text(program)) {
-                    let other = hits_of(first);
-                    let span = place_of(program);
-                    let krate = moved(krate, span);
-                    impls.extend(quote_spanned! {span=>
-                        const _: () = #krate::check::same_hits::<#hits, #other>();
-                    });
+    let rays: Vec<_> = pipeline
+        .rays
+        .iter()
+        .filter_map(|ray| {
+            let programs =
+                group.rays.iter().find(|p| super::check::text(&p.ray) == super::check::text(&ray.payload))?;
+            let (ray, hits) = (&programs.ray, hits_of(programs));
+            match (first, &programs.intersection) {
+                (Some(first), Some(program)) => {
+                    if first.intersection.as_ref().is_some_and(|f| super::check::text(f) != super::check::text(program))
+                    {
+                        let other = hits_of(first);
+                        let span = place_of(program);
+                        let krate = moved(krate, span);
+                        impls.extend(quote_spanned! {span=>
+                            const _: () = #krate::check::same_hits::<#hits, #other>();
+                        });
+                    }
                 }
+                _ => first = Some(programs),
             }
-            _ => first = Some(programs),
-        }
-        if programs.closesthit.is_none() {
-            impls.extend(nothing_to_write(krate, ray, "FromClosestHit"));
-        }
-        let mut of = vec![symbol(record), symbol(ray)];
-        if group.geometry == Geometry::Custom {
-            of.push("Custom".to_owned());
-        }
-        let mut entry = |kind: Kind| {
-            let program = programs.get(kind)?;
-            let types = quote!(#ident, #hits, #record, #ray);
-            let bound = match kind {
-                Kind::Intersection => quote!(IntersectionProgram<#ident, #record, #ray>),
-                Kind::AnyHit => quote!(AnyHitProgram<#types>),
-                _ => quote!(ClosestHitProgram<#types>),
+            if programs.closesthit.is_none() {
+                impls.extend(nothing_to_write(krate, ray, "FromClosestHit"));
+            }
+            let mut of = vec![symbol(record), symbol(ray)];
+            if group.geometry == Geometry::Custom {
+                of.push("Custom".to_owned());
+            }
+            let mut entry = |kind: Kind| {
+                let program = programs.get(kind)?;
+                let types = quote!(#ident, #hits, #record, #ray);
+                let bound = match kind {
+                    Kind::Intersection => quote!(IntersectionProgram<#ident, #record, #ray>),
+                    Kind::AnyHit => quote!(AnyHitProgram<#types>),
+                    _ => quote!(ClosestHitProgram<#types>),
+                };
+                Some(entries.add(kind, program, &types, &bound, &of))
             };
-            Some(entries.add(kind, program, &types, &bound, &of))
-        };
-        let closesthit = option(entry(Kind::ClosestHit));
-        let anyhit = option(entry(Kind::AnyHit));
-        let intersection = option(entry(Kind::Intersection));
-        Some(quote! {
-            #krate::host::HitPrograms { closesthit: #closesthit, anyhit: #anyhit, intersection: #intersection }
+            let closesthit = option(entry(Kind::ClosestHit));
+            let anyhit = option(entry(Kind::AnyHit));
+            let intersection = option(entry(Kind::Intersection));
+            Some(quote! {
+                #krate::host::HitPrograms { closesthit: #closesthit, anyhit: #anyhit, intersection: #intersection }
+            })
         })
-    }).collect();
+        .collect();
     let geometry = format_ident!("{}", group.geometry.name());
     let words = match first {
         Some(programs) => {
@@ -283,9 +297,7 @@ fn describe_group(pipeline: &Pipeline, group: &Group, entries: &mut Entries<'_>,
 fn miss_record(pipeline: &Pipeline, payload: &syn::Type, program: Option<&Path>) -> TokenStream {
     let (ident, krate) = (&pipeline.ident, &pipeline.krate);
     match program {
-        Some(program) => {
-            of_program(krate, program, &quote!(MissProgram<#ident, #payload>), "Record")
-        }
+        Some(program) => of_program(krate, program, &quote!(MissProgram<#ident, #payload>), "Record"),
         None => quote!(()),
     }
 }

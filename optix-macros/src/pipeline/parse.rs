@@ -69,7 +69,8 @@ impl Programs {
     }
 }
 
-const EXAMPLE: &str = "`pipeline! { pub struct PathTracer { params: Frame, raygen: [camera], rays: { .. }, hitgroups: { .. } } }`";
+const EXAMPLE: &str =
+    "`pipeline! { pub struct PathTracer { params: Frame, raygen: [camera], rays: { .. }, hitgroups: { .. } } }`";
 
 pub fn parse(tokens: TokenStream, errors: &mut Errors) -> Option<Pipeline> {
     let parser = |input: ParseStream<'_>| pipeline(input, errors);
@@ -195,16 +196,19 @@ fn list(input: ParseStream<'_>, errors: &mut Errors, mut item: impl FnMut(ParseS
 /// The path of a program.
 fn program(input: ParseStream<'_>) -> Result<Path> {
     if !input.peek(Ident::peek_any) && !input.peek(Token![::]) {
-        return Err(input.error("expected the name of a program: a function with its kind's attribute, such as `lambert`"));
+        return Err(
+            input.error("expected the name of a program: a function with its kind's attribute, such as `lambert`")
+        );
     }
-    let with_arguments = |input: ParseStream<'_>| {
-        input.peek(Token![<]) || input.peek(Token![::]) && input.peek3(Token![<])
-    };
+    let with_arguments =
+        |input: ParseStream<'_>| input.peek(Token![<]) || input.peek(Token![::]) && input.peek3(Token![<]);
     let mut path = Path { leading_colon: input.parse()?, segments: Default::default() };
     loop {
         path.segments.push_value(input.call(Ident::parse_any)?.into());
         if with_arguments(input) {
-            return Err(input.error("a program is named without `<..>`: `pipeline!` fills in the pipeline, record and payload"));
+            return Err(
+                input.error("a program is named without `<..>`: `pipeline!` fills in the pipeline, record and payload")
+            );
         }
         if !input.peek(Token![::]) {
             return Ok(path);
@@ -216,7 +220,8 @@ fn program(input: ParseStream<'_>) -> Result<Path> {
 fn ray(input: ParseStream<'_>, errors: &mut Errors) -> Result<Ray> {
     let mut ray = Ray { payload: input.parse()?, miss: None };
     if !input.peek(syn::token::Brace) {
-        return Err(input.error("expected the ray type's miss program in braces: `Radiance { miss: sky }`, or `{}` without one"));
+        return Err(input
+            .error("expected the ray type's miss program in braces: `Radiance { miss: sky }`, or `{}` without one"));
     }
     let content;
     syn::braced!(content in input);
@@ -228,7 +233,10 @@ fn ray(input: ParseStream<'_>, errors: &mut Errors) -> Result<Ray> {
             } else {
                 ""
             };
-            return Err(Error::new(key.span(), format!("a ray type has a `miss` program and nothing else, not `{key}`{place}")));
+            return Err(Error::new(
+                key.span(),
+                format!("a ray type has a `miss` program and nothing else, not `{key}`{place}"),
+            ));
         }
         input.parse::<Token![:]>()?;
         if ray.miss.is_some() {
@@ -246,10 +254,7 @@ fn group(input: ParseStream<'_>, errors: &mut Errors) -> Result<Group> {
     let record: Type = input.parse()?;
     let on = input.parse::<Ident>().ok().filter(|on| on == "on");
     if on.is_none() {
-        return Err(Error::new(
-            record.span(),
-            format!("expected a material on a kind of geometry: `{GROUP}`"),
-        ));
+        return Err(Error::new(record.span(), format!("expected a material on a kind of geometry: `{GROUP}`")));
     }
     let geometry: Ident = input.parse()?;
     let (kind, geometry_span) = match geometry.to_string().as_str() {

@@ -94,9 +94,10 @@ pub fn emit(program: &Program) -> TokenStream {
     };
 
     let hits = program.hits.as_ref();
+    let record_type = quote_spanned!(place_of(&record)=> type Record = #record;);
     let (trait_arguments, context_arguments, assoc) = match kind {
-        Kind::RayGen => (quote!(#pipeline), quote!(#pipeline), quote!(type Record = #record;)),
-        Kind::Miss => (quote!(#pipeline, #payload), quote!(#pipeline), quote!(type Record = #record;)),
+        Kind::RayGen => (quote!(#pipeline), quote!(#pipeline), record_type),
+        Kind::Miss => (quote!(#pipeline, #payload), quote!(#pipeline), record_type),
         Kind::ClosestHit | Kind::AnyHit => {
             (quote!(#pipeline, #hits, #record, #payload), quote!(#pipeline, #hits), TokenStream::new())
         }
@@ -163,7 +164,9 @@ pub fn fallback(kind: Kind, krate: &Path, ident: &Ident) -> TokenStream {
         Kind::RayGen => (
             quote!(#pipeline),
             quote!(__P),
-            quote!(type Record = ();),
+            quote!(
+                type Record = ();
+            ),
             quote!((_: &#krate::program::RayGen<__P>, _: &())),
         ),
         Kind::Miss => {
@@ -171,7 +174,9 @@ pub fn fallback(kind: Kind, krate: &Path, ident: &Ident) -> TokenStream {
             (
                 quote!(#pipeline, #payload),
                 quote!(__P, __R),
-                quote!(type Record = ();),
+                quote!(
+                    type Record = ();
+                ),
                 quote!((_: &#krate::program::Miss<__P>, _: &(), _: #at) -> #from),
             )
         }

@@ -4,8 +4,8 @@ use crate::support::{Errors, ungroup};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{
-    Error, FnArg, GenericArgument, GenericParam, Generics, Ident, ItemFn, Path, PathArguments, ReturnType, Safety, Type,
-    TypeReference,
+    Error, FnArg, GenericArgument, GenericParam, Generics, Ident, ItemFn, Path, PathArguments, ReturnType, Safety,
+    Type, TypeReference,
 };
 
 /// The kinds of program.
@@ -164,7 +164,13 @@ impl Program {
                 GenericParam::Type(parameter) => (&parameter.ident, parameter.to_token_stream()),
                 GenericParam::Const(parameter) => (&parameter.ident, parameter.to_token_stream()),
             };
-            let types = [Some(&self.pipeline), self.hits.as_ref(), self.record.as_ref(), self.input.as_ref(), self.output.as_ref()];
+            let types = [
+                Some(&self.pipeline),
+                self.hits.as_ref(),
+                self.record.as_ref(),
+                self.input.as_ref(),
+                self.output.as_ref(),
+            ];
             if !types.into_iter().flatten().any(|ty| mentions(ty.to_token_stream(), ident)) {
                 errors.at(
                     tokens,
@@ -218,7 +224,9 @@ fn qualifiers(kind: Kind, function: &ItemFn, errors: &mut Errors) {
     if let Safety::Unsafe(token) = &sig.safety {
         errors.at(
             token,
-            format!("{phrase} is not `unsafe`: the pipeline calls it with what its signature asks for; use a block inside"),
+            format!(
+                "{phrase} is not `unsafe`: the pipeline calls it with what its signature asks for; use a block inside"
+            ),
         );
     }
     if let Some(abi) = &sig.abi {
@@ -237,7 +245,10 @@ fn context_type(kind: Kind, argument: &FnArg, errors: &mut Errors) -> Option<(Ty
     let (phrase, example) = (kind.phrase(), kind.context_example());
     let argument = match argument {
         FnArg::Receiver(receiver) => {
-            errors.at(receiver, format!("a program has no `self`: {phrase} is a free function whose first argument is `{example}`"));
+            errors.at(
+                receiver,
+                format!("a program has no `self`: {phrase} is a free function whose first argument is `{example}`"),
+            );
             return None;
         }
         FnArg::Typed(argument) => argument,
@@ -297,7 +308,10 @@ fn context_type(kind: Kind, argument: &FnArg, errors: &mut Errors) -> Option<(Ty
         ([pipeline, hits], true) => Some(((*pipeline).clone(), Some((*hits).clone()))),
         (_, hits) => {
             let of = if hits { "the pipeline and what its hits carry" } else { "the pipeline" };
-            errors.at(segment, format!("`{}` is the context of one kind of pipeline: name {of}, as in `{example}`", kind.context()));
+            errors.at(
+                segment,
+                format!("`{}` is the context of one kind of pipeline: name {of}, as in `{example}`", kind.context()),
+            );
             None
         }
     }
@@ -376,7 +390,10 @@ fn output(kind: Kind, output: &ReturnType, sig: &syn::Signature, errors: &mut Er
     match kind {
         Kind::RayGen => {
             if !unit {
-                errors.at(ty, "a ray-generation program returns nothing: it writes its result through the launch parameters");
+                errors.at(
+                    ty,
+                    "a ray-generation program returns nothing: it writes its result through the launch parameters",
+                );
             }
             None
         }
