@@ -40,7 +40,9 @@ impl Device {
             Ok(device) => Ok(device),
             Err(why) => {
                 let cpu = Self::cpu()?;
-                let description = format!("{} ({why})", cpu.description).into();
+                let why = why.to_string();
+                let why = why.lines().next().unwrap_or_default();
+                let description = format!("{}; {why}", cpu.description).into();
                 Ok(Self { description, ..cpu })
             }
         }

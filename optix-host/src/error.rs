@@ -40,7 +40,7 @@ pub enum Error {
     },
     /// No OptiX on this machine.
     #[error("OptiX is not available: {0}")]
-    NoOptix(String),
+    NoOptix(#[source] crate::optix::driver::Error),
     /// An error of the CUDA or OptiX driver.
     #[error("{0}")]
     Driver(#[from] crate::optix::driver::Error),

@@ -15,7 +15,7 @@ pub fn optix_with(test: &str, options: &OptixOptions) -> Option<Device> {
             panic!("{test} is to run on a GPU: {why}")
         }
         Err(why) => {
-            println!("{test}: not run on a GPU, {why}");
+            println!("{test}: not run on a GPU, {}", why.to_string().lines().next().unwrap_or_default());
             None
         }
     }

@@ -24,7 +24,7 @@ pub(crate) struct OptixBackend {
 impl OptixBackend {
     pub fn new(options: &OptixOptions) -> Result<Self> {
         let options = ContextOptions { validation: options.validation, ..Default::default() };
-        let context = Context::new(&options).map_err(|e| Error::NoOptix(e.to_string()))?;
+        let context = Context::new(&options).map_err(Error::NoOptix)?;
         Ok(Self { id: next_device_id(), context })
     }
 

@@ -1,5 +1,7 @@
 //! Binary hierarchies, from which the wide one is collapsed.
 
+use std::collections::HashMap;
+
 use glam::{DVec3, Vec3A};
 use obvhs::bvh2::{Bvh2, reinsertion::ReinsertionOptimizer};
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
@@ -27,12 +29,16 @@ const REINSERTION_RATIO: f32 = 0.15;
 impl Binary {
     /// A tree of low surface-area cost: agglomerative clustering (Meister and Bittner, "Parallel Locally-Ordered
     /// Clustering", 2018) and reinsertion ("Parallel Reinsertion", 2018), both by obvhs.
+    ///
+    /// Primitives with equal boxes go in as one and are split evenly below it: the clustering merges mutual nearest
+    /// neighbours, and among equals it finds one pair a pass, which takes quadratic time.
     pub fn by_surface_area(boxes: &[Aabb], active: &[u32]) -> Self {
         let normalised = normalise(boxes, active);
-        let mut tree = PlocBuilder::with_capacity(active.len()).build(
+        let groups = Groups::new(&normalised);
+        let mut tree = PlocBuilder::with_capacity(groups.boxes.len()).build(
             PlocSearchDistance::Low,
-            &normalised,
-            (0..active.len() as u32).collect(),
+            &groups.boxes,
+            (0..groups.boxes.len() as u32).collect(),
             SortPrecision::U64,
             2,
         );
@@ -40,19 +46,33 @@ impl Binary {
             ReinsertionOptimizer::default().run(&mut tree, REINSERTION_RATIO, None);
         }
 
-        let mut links = Vec::with_capacity(tree.nodes.len());
-        let mut open = vec![(0u32, 0u32)];
-        links.push(Link::Primitive(0));
-        while let Some((from, to)) = open.pop() {
-            let node = &tree.nodes[from as usize];
-            links[to as usize] = if node.is_leaf() {
-                Link::Primitive(active[tree.primitive_indices[node.first_index as usize] as usize])
-            } else {
-                let left = links.len() as u32;
-                links.extend([Link::Primitive(0); 2]);
-                open.extend([(node.first_index + 1, left + 1), (node.first_index, left)]);
-                Link::Inner(left, left + 1)
+        let mut links = vec![Link::Primitive(0)];
+        let mut open = vec![(0, Source::Node(0))];
+        while let Some((to, source)) = open.pop() {
+            let halves = match source {
+                Source::Node(node) => {
+                    let node = &tree.nodes[node as usize];
+                    if node.is_leaf() {
+                        let group = tree.primitive_indices[node.first_index as usize];
+                        open.push((to, groups.members(group)));
+                        continue;
+                    }
+                    [Source::Node(node.first_index), Source::Node(node.first_index + 1)]
+                }
+                Source::Equals(begin, end) if end - begin == 1 => {
+                    links[to] = Link::Primitive(active[groups.order[begin] as usize]);
+                    continue;
+                }
+                Source::Equals(begin, end) => {
+                    let middle = begin.midpoint(end);
+                    [Source::Equals(begin, middle), Source::Equals(middle, end)]
+                }
             };
+            let left = links.len();
+            links.extend([Link::Primitive(0); 2]);
+            links[to] = Link::Inner(left as u32, left as u32 + 1);
+            let [first, second] = halves;
+            open.extend([(left + 1, second), (left, first)]);
         }
         Self::with_bounds(links, boxes)
     }
@@ -102,6 +122,59 @@ impl Binary {
     }
 }
 
+/// What a binary node is made of: a node of obvhs, or a range of primitives with equal boxes.
+enum Source {
+    Node(u32),
+    Equals(usize, usize),
+}
+
+/// Boxes without their duplicates.
+struct Groups {
+    boxes: Vec<obvhs::aabb::Aabb>,
+    /// All boxes, those of group `g` at `begin[g] .. begin[g + 1]`.
+    order: Vec<u32>,
+    begin: Vec<usize>,
+}
+
+impl Groups {
+    fn new(all: &[obvhs::aabb::Aabb]) -> Self {
+        let mut numbers = HashMap::with_capacity(all.len());
+        let mut boxes = Vec::new();
+        let mut sizes = Vec::new();
+        let group_of: Vec<u32> = all
+            .iter()
+            .map(|b| {
+                let group = *numbers.entry([b.min, b.max].map(|v| v.to_array().map(f32::to_bits))).or_insert_with(|| {
+                    boxes.push(*b);
+                    sizes.push(0);
+                    boxes.len() as u32 - 1
+                });
+                sizes[group as usize] += 1;
+                group
+            })
+            .collect();
+        let mut begin = vec![0];
+        begin.extend(sizes.iter().scan(0, |sum, size| {
+            *sum += size;
+            Some(*sum)
+        }));
+        let mut next = begin.clone();
+        let mut order = vec![0; all.len()];
+        for (i, &group) in group_of.iter().enumerate() {
+            order[next[group as usize]] = i as u32;
+            next[group as usize] += 1;
+        }
+        Self { boxes, order, begin }
+    }
+
+    fn members(&self, group: u32) -> Source {
+        Source::Equals(self.begin[group as usize], self.begin[group as usize + 1])
+    }
+}
+
+/// Added on all sides of normalised boxes, so that boxes in a line differ in area.
+const THICKNESS: f32 = 1.0 / (1 << 20) as f32;
+
 /// The active boxes moved and scaled into the unit cube, so that areas neither overflow nor vanish in `f32`. Only the
 /// tree's topology comes from these; its bounds are the exact ones.
 fn normalise(boxes: &[Aabb], active: &[u32]) -> Vec<obvhs::aabb::Aabb> {
@@ -112,7 +185,10 @@ fn normalise(boxes: &[Aabb], active: &[u32]) -> Vec<obvhs::aabb::Aabb> {
     let place = |p: [f32; 3]| Vec3A::from(((wide(p) - origin) * scale).as_vec3());
     active
         .iter()
-        .map(|&i| obvhs::aabb::Aabb::new(place(boxes[i as usize].min), place(boxes[i as usize].max)))
+        .map(|&i| {
+            let Aabb { min, max } = boxes[i as usize];
+            obvhs::aabb::Aabb::new(place(min) - THICKNESS, place(max) + THICKNESS)
+        })
         .collect()
 }
 

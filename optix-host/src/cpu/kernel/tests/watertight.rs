@@ -159,9 +159,17 @@ fn is_inside(vertices: &[[f32; 3]], indices: &[[u32; 3]], point: [f32; 3]) -> bo
     (sum / (4.0 * std::f64::consts::PI)).abs() > 0.5
 }
 
-/// Scales and moves a mesh at random, rounds it, and traces `rays` from points inside. Gives how many got out, and how
-/// many triangles rounding has made degenerate.
-fn escape(mesh: &Mesh, rays: usize, seed: u64) -> (usize, usize) {
+#[derive(Default)]
+struct Tally {
+    traced: usize,
+    escaped: usize,
+    triangles: usize,
+    /// Made so by rounding.
+    degenerate: usize,
+}
+
+/// Scales and moves a mesh at random, rounds it, and traces `rays` from points inside, if rounding has left any.
+fn escape(mesh: &Mesh, rays: usize, seed: u64, tally: &mut Tally) {
     let mut random = Random(seed);
     let low: [f64; 3] = [0, 1, 2].map(|a| mesh.vertices.iter().map(|v| v[a]).fold(f64::MAX, f64::min));
     let high: [f64; 3] = [0, 1, 2].map(|a| mesh.vertices.iter().map(|v| v[a]).fold(f64::MIN, f64::max));
@@ -195,12 +203,11 @@ fn escape(mesh: &Mesh, rays: usize, seed: u64) -> (usize, usize) {
         }
     }
     if origins.is_empty() {
-        // Rounding has left nothing of the inside.
-        return (0, degenerate);
+        return;
     }
 
     let accel = super::mesh(&vertices, &mesh.indices);
-    let escaped = (0..rays.div_ceil(4096))
+    let escaped: usize = (0..rays.div_ceil(4096))
         .into_par_iter()
         .map(|chunk| {
             let mut random = Random(seed ^ (chunk as u64) << 20);
@@ -235,7 +242,10 @@ fn escape(mesh: &Mesh, rays: usize, seed: u64) -> (usize, usize) {
                 .count()
         })
         .sum();
-    (escaped, degenerate)
+    tally.traced += rays;
+    tally.escaped += escaped;
+    tally.triangles += mesh.indices.len();
+    tally.degenerate += degenerate;
 }
 
 #[test]
@@ -248,21 +258,22 @@ fn nothing_escapes_a_closed_mesh() {
             None => println!("{name}: no file, or no closed surface"),
         }
     }
-    let rounds = (total / meshes.len()).div_ceil(25_000).max(2);
-    let rays = total.div_ceil(meshes.len() * rounds);
+    let share = total.div_ceil(meshes.len());
+    let rays = (share / 5).min(25_000);
     for (name, mesh) in &meshes {
         assert!(open_edges(&mesh.indices).is_empty());
-        let (mut escaped, mut degenerate) = (0, 0);
-        for round in 0..rounds {
-            let result = escape(mesh, rays, 1000 * round as u64 + 17);
-            escaped += result.0;
-            degenerate += result.1;
+        let mut tally = Tally::default();
+        for seed in 0.. {
+            if tally.traced >= share {
+                break;
+            }
+            escape(mesh, rays, 1000 * seed + 17, &mut tally);
         }
+        let Tally { traced, escaped, triangles, degenerate } = tally;
         println!(
-            "{name}: {} triangles ({degenerate} of {} made degenerate), {} rays, {escaped} escaped",
+            "{name}: {} triangles, {traced} rays, {escaped} escaped; {:.1} % of triangles made degenerate by rounding",
             mesh.indices.len(),
-            rounds * mesh.indices.len(),
-            rounds * rays
+            100.0 * degenerate as f64 / triangles as f64
         );
         assert_eq!(escaped, 0, "{name}");
     }

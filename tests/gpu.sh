@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Runs the GPU tests on a machine that has a GPU and a driver but no Rust.
+#
+#   tests/gpu.sh          on the machine that builds: makes the folder bundle/
+#   bundle/run.sh [OUT]   on the machine with the GPU, from a copy of that folder: runs all of it, writes to OUT
+#
+# Both machines are Linux of the same architecture, and the second one's glibc is no older.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+rm -rf bundle
+mkdir -p bundle/tests bundle/data
+cargo test --release --package optix-tests --package optix-host --lib --tests --no-run --message-format=json |
+    grep -o '"executable":"[^"]*"' | cut -d'"' -f4 | while read -r executable; do
+    name=$(basename "$executable")
+    case $name in ui-* | macros-*) continue ;; esac # compile-time tests: they need Rust, and no GPU
+    strip -o "bundle/tests/${name%-*}" "$executable"
+done
+cargo build --release --package examples --package optix-toolchain --features optix-toolchain/cli
+target=${CARGO_TARGET_DIR:-target}/release
+for program in path-tracer cargo-optix; do
+    strip -o "bundle/$program" "$target/$program"
+done
+data=${OPTIX_TEST_DATA:-../shared/data}
+if [ -d "$data" ]; then cp "$data"/*.obj bundle/data/; fi
+cat >bundle/run.sh <<'RUN'
+#!/usr/bin/env bash
+# Made by tests/gpu.sh: runs the GPU tests. Exit code 0 if all of them passed.
+set -uo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+out=${1:-$here/out}
+mkdir -p "$out"
+export OPTIX_TEST_GPU=1 OPTIX_TEST_DATA=$here/data
+"$here/cargo-optix" doctor
+failed=0
+for test in "$here"/tests/*; do
+    echo "== $(basename "$test")"
+    "$test" --nocapture --test-threads=1 >"$out/$(basename "$test").log" 2>&1 || failed=1
+    grep -v '^test .* ok$' "$out/$(basename "$test").log" | tail -n 40
+done
+exit $failed
+RUN
+chmod +x bundle/run.sh
+du -sh bundle
