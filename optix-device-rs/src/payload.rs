@@ -77,11 +77,7 @@ pub trait PartOf: Part {
 #[doc(hidden)]
 pub const fn word_mask(at: usize, count: usize) -> u32 {
     // A payload of more than 32 words is an error of its own; the mask must not be a second one.
-    if count == 0 || at + count > 32 {
-        0
-    } else {
-        (u32::MAX >> (32 - count as u32)) << at as u32
-    }
+    if count == 0 || at + count > 32 { 0 } else { (u32::MAX >> (32 - count as u32)) << at as u32 }
 }
 
 /// `OptixPayloadSemantics` bits: two per party, read is the low one (guide 14).

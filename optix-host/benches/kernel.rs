@@ -4,7 +4,7 @@
 //! millisecond. Printed are rates from each turn's least time over all repeats, their ratio, and the median and range of
 //! each repeat's ratio. `MESH=file.obj` adds a mesh.
 
-#[allow(dead_code, reason = "the executor uses more of the kernel than this bench")]
+#[allow(dead_code, unused_imports, reason = "the executor uses more of the kernel than this bench")]
 #[path = "../src/cpu/kernel/mod.rs"]
 mod kernel;
 
@@ -69,7 +69,9 @@ fn main() {
             "{:30} {:>9} {:>9} {:>9} {:>9} {:>9} [min, max] of ours/Embree",
             "Mray/s, least times", "ours", "portable", "Embree", "ratio", "median"
         );
-        for rays in scene::ray_sets(&mesh, &|ray| trace(Some(&accel), ray, &mut Opaque).map(|hit| (hit.t, hit.triangle_vertices()))) {
+        for rays in scene::ray_sets(&mesh, &|ray| {
+            trace(Some(&accel), ray, &mut Opaque).map(|hit| (hit.t, hit.triangle_vertices()))
+        }) {
             for threads in [1, rayon::current_num_threads()] {
                 let label = format!("{}, {threads} thread{}", rays.name, if threads == 1 { "" } else { "s" });
                 if label.contains(&filter) {
@@ -136,10 +138,12 @@ fn compare(label: &str, accel: &Accel, other: Option<&embree::Scene<'_>>, rays: 
             if threads == 1 {
                 assert_eq!(ours.1, portable.1, "the instruction sets disagree");
             }
-            for (i, (seconds, tally)) in [Some(ours), Some(portable), theirs].into_iter().enumerate().filter_map(|(i, r)| Some((i, r?))) {
-                least[i] = least[i].min(seconds);
-                total[i] += seconds;
-                hits[i] += tally.0;
+            for (i, run) in [Some(ours), Some(portable), theirs].into_iter().enumerate() {
+                if let Some((seconds, tally)) = run {
+                    least[i] = least[i].min(seconds);
+                    total[i] += seconds;
+                    hits[i] += tally.0;
+                }
             }
         }
         ratios.push(total[2] / total[0]);

@@ -1,7 +1,7 @@
 //! As much of Embree 3's C interface as the comparison needs, loaded at run time.
 
 use std::ffi::{c_char, c_void};
-use std::marker::PhantomData;
+use std::mem::ManuallyDrop;
 use std::ptr;
 
 use libloading::Library;
@@ -45,7 +45,7 @@ const FORMAT_UINT3: u32 = 0x5003;
 const FORMAT_FLOAT3: u32 = 0x9003;
 const NOTHING: u32 = !0;
 
-/// The entry points, copied out of the library, which stays loaded as long as they do.
+/// The entry points, copied out of the library.
 pub struct Embree {
     new_geometry: unsafe extern "C" fn(Handle, u32) -> Handle,
     new_buffer: unsafe extern "C" fn(Handle, u32, u32, u32, usize, usize) -> *mut c_void,
@@ -57,14 +57,14 @@ pub struct Embree {
     intersect: unsafe extern "C" fn(Handle, *mut Context, *mut RayHit),
     occluded: unsafe extern "C" fn(Handle, *mut Context, *mut RayHit),
     device: Handle,
-    _library: Library,
+    /// Stays loaded to the end of the process: Embree's threads outlive `main`, and would run unmapped code.
+    _library: ManuallyDrop<Library>,
 }
 
 /// A committed scene; never released, since the process ends soon.
 pub struct Scene<'e> {
     embree: &'e Embree,
     handle: Handle,
-    _life: PhantomData<&'e Embree>,
 }
 
 // SAFETY: Embree's committed scenes may be traced from several threads at once.
@@ -93,7 +93,7 @@ impl Embree {
             occluded: symbol!("rtcOccluded1"),
             // SAFETY: a null configuration is the default one.
             device: unsafe { new_device(ptr::null()) },
-            _library: library,
+            _library: ManuallyDrop::new(library),
         })
     }
 
@@ -110,7 +110,7 @@ impl Embree {
             (self.commit_geometry)(geometry);
             (self.attach)(handle, geometry);
             (self.commit_scene)(handle);
-            Scene { embree: self, handle, _life: PhantomData }
+            Scene { embree: self, handle }
         }
     }
 }

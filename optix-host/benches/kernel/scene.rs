@@ -22,7 +22,8 @@ pub fn bumpy_sphere(rings: u32, segments: u32) -> Mesh {
         for j in 0..segments {
             let theta = f64::from(i) / f64::from(rings) * std::f64::consts::PI;
             let phi = f64::from(j) / f64::from(segments) * std::f64::consts::TAU;
-            let r = 1.0 + 0.15 * (9.0 * theta).sin() * (7.0 * phi).sin() + 0.03 * (31.0 * theta).cos() * (37.0 * phi).cos();
+            let r =
+                1.0 + 0.15 * (9.0 * theta).sin() * (7.0 * phi).sin() + 0.03 * (31.0 * theta).cos() * (37.0 * phi).cos();
             let p = [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
             vertices.push(p.map(|x| (x * r) as f32));
         }
@@ -47,7 +48,9 @@ pub fn load_obj(file: &str) -> Option<Mesh> {
     for line in text.lines() {
         let mut words = line.split_whitespace();
         match words.next() {
-            Some("v") => vertices.push(std::array::from_fn(|_| words.next().and_then(|w| w.parse().ok()).unwrap_or(0.0))),
+            Some("v") => {
+                vertices.push(std::array::from_fn(|_| words.next().and_then(|w| w.parse().ok()).unwrap_or(0.0)))
+            }
             Some("f") => {
                 let corners: Vec<u32> =
                     words.filter_map(|w| w.split('/').next()?.parse::<u32>().ok()).map(|i| i - 1).collect();
@@ -84,7 +87,8 @@ const SIDE: usize = 448;
 
 pub fn ray_sets(mesh: &Mesh, cast: Cast<'_>) -> Vec<Rays> {
     let low: [f64; 3] = std::array::from_fn(|a| mesh.vertices.iter().map(|v| f64::from(v[a])).fold(f64::MAX, f64::min));
-    let high: [f64; 3] = std::array::from_fn(|a| mesh.vertices.iter().map(|v| f64::from(v[a])).fold(f64::MIN, f64::max));
+    let high: [f64; 3] =
+        std::array::from_fn(|a| mesh.vertices.iter().map(|v| f64::from(v[a])).fold(f64::MIN, f64::max));
     let centre: [f64; 3] = std::array::from_fn(|a| 0.5 * (low[a] + high[a]));
     let size = (0..3).map(|a| high[a] - low[a]).fold(0.0, f64::max);
     let mut random = Random(1);

@@ -105,9 +105,10 @@ mod tests {
     fn unwritten(read: &[Party], write: &[Party]) -> bool {
         let mut traversals: Vec<Vec<Party>> = vec![vec![]];
         for _ in 0..3 {
-            let longer = traversals.clone().into_iter().flat_map(|t| {
-                [Party::Intersection, Party::AnyHit].map(|party| [t.as_slice(), &[party]].concat())
-            });
+            let longer = traversals
+                .clone()
+                .into_iter()
+                .flat_map(|t| [Party::Intersection, Party::AnyHit].map(|party| [t.as_slice(), &[party]].concat()));
             traversals.extend(longer.collect::<Vec<_>>());
         }
         let ends = [Party::ClosestHit, Party::Miss];
@@ -122,7 +123,9 @@ mod tests {
     }
 
     fn subsets() -> impl Iterator<Item = Vec<Party>> {
-        (1..32u32).map(|bits| Party::ALL.into_iter().enumerate().filter(|(i, _)| bits >> i & 1 == 1).map(|(_, p)| p).collect())
+        (1..32u32).map(|bits| {
+            Party::ALL.into_iter().enumerate().filter(|(i, _)| bits >> i & 1 == 1).map(|(_, p)| p).collect()
+        })
     }
 
     #[test]

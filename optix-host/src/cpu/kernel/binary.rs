@@ -87,13 +87,13 @@ impl Binary {
             links[to] = if let [only] = part {
                 Link::Primitive(*only)
             } else {
-                let centre = |i: u32, a: usize| {
-                    f64::from(boxes[i as usize].min[a]) + f64::from(boxes[i as usize].max[a])
-                };
+                let centre =
+                    |i: u32, a: usize| f64::from(boxes[i as usize].min[a]) + f64::from(boxes[i as usize].max[a]);
                 let extent = |a: usize| {
-                    let (lo, hi) = part.iter().map(|&i| centre(i, a)).fold((f64::MAX, f64::MIN), |(lo, hi), c| {
-                        (lo.min(c), hi.max(c))
-                    });
+                    let (lo, hi) = part
+                        .iter()
+                        .map(|&i| centre(i, a))
+                        .fold((f64::MAX, f64::MIN), |(lo, hi), c| (lo.min(c), hi.max(c)));
                     hi - lo
                 };
                 let axis = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
@@ -144,11 +144,12 @@ impl Groups {
         let group_of: Vec<u32> = all
             .iter()
             .map(|b| {
-                let group = *numbers.entry([b.min, b.max].map(|v| v.to_array().map(f32::to_bits))).or_insert_with(|| {
-                    boxes.push(*b);
-                    sizes.push(0);
-                    boxes.len() as u32 - 1
-                });
+                let group =
+                    *numbers.entry([b.min, b.max].map(|v| v.to_array().map(f32::to_bits))).or_insert_with(|| {
+                        boxes.push(*b);
+                        sizes.push(0);
+                        boxes.len() as u32 - 1
+                    });
                 sizes[group as usize] += 1;
                 group
             })

@@ -53,7 +53,7 @@ impl TriangleInput {
 
     fn check(&self, input: usize) -> Result<(), BuildError> {
         let vertices = self.vertices.len();
-        if self.indices.is_none() && vertices % 3 != 0 {
+        if self.indices.is_none() && !vertices.is_multiple_of(3) {
             return Err(BuildError::IncompleteTriangle { input, vertices });
         }
         for (triangle, indices) in self.indices.iter().flatten().enumerate() {

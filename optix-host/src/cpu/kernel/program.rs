@@ -102,13 +102,7 @@ impl Reporter<'_, '_> {
     /// It is not if `t` lies outside `[tmin, tmax]` or is NaN, if the any-hit program ignores it, if it ties with a hit
     /// that wins ties (see [`trace`](super::trace)), or if the ray has ended. Only the lowest 7 bits of `hit_kind` and
     /// the first 8 `attributes` count.
-    pub fn report<P: Programs + ?Sized>(
-        &mut self,
-        programs: &mut P,
-        t: f32,
-        hit_kind: u8,
-        attributes: &[u32],
-    ) -> bool {
+    pub fn report<P: Programs + ?Sized>(&mut self, programs: &mut P, t: f32, hit_kind: u8, attributes: &[u32]) -> bool {
         if !self.state.admits(t, self.path, self.primitive) {
             return false;
         }

@@ -192,10 +192,7 @@ mod avx2 {
             let value = _mm256_sub_ps(p, q);
             let size = _mm256_add_ps(_mm256_andnot_ps(sign, p), _mm256_andnot_ps(sign, q));
             let bound = _mm256_add_ps(_mm256_mul_ps(size, relative), absolute);
-            (
-                _mm256_cmp_ps::<_CMP_GT_OQ>(value, bound),
-                _mm256_cmp_ps::<_CMP_LT_OQ>(value, _mm256_xor_ps(sign, bound)),
-            )
+            (_mm256_cmp_ps::<_CMP_GT_OQ>(value, bound), _mm256_cmp_ps::<_CMP_LT_OQ>(value, _mm256_xor_ps(sign, bound)))
         };
         let (u, v, w) = (side(c, b), side(a, c), side(b, a));
         let above = _mm256_or_ps(_mm256_or_ps(u.0, v.0), w.0);

@@ -49,7 +49,7 @@ pub fn trace_with<'a, S: Simd, P: Programs>(
 ) -> Option<Hit<'a>> {
     let accel = accel?;
     let query = RayQuery { tmin: ray.tmin.max(0.0), ..*ray };
-    if ray.tmin.is_nan() || !(query.tmin <= query.tmax) {
+    if ray.tmin.is_nan() || ray.tmax.is_nan() || query.tmin > query.tmax {
         return None;
     }
     let mut path = InstancePath::new(accel);

@@ -46,9 +46,7 @@ impl Affine {
     pub fn inverse(&self) -> Option<Self> {
         let m = &self.0;
         let at = |r: usize, c: usize| m[4 * (r % 3) + c % 3];
-        let cofactor = |r: usize, c: usize| {
-            at(r + 1, c + 1) * at(r + 2, c + 2) - at(r + 1, c + 2) * at(r + 2, c + 1)
-        };
+        let cofactor = |r: usize, c: usize| at(r + 1, c + 1) * at(r + 2, c + 2) - at(r + 1, c + 2) * at(r + 2, c + 1);
         let determinant: f64 = (0..3).map(|c| at(0, c) * cofactor(0, c)).sum();
         let magnitude: f64 = (0..3)
             .map(|c| {
@@ -57,8 +55,7 @@ impl Affine {
                 at(0, c).abs() * (minor.abs() + other.abs())
             })
             .sum();
-        // `partial_cmp` style: a NaN determinant must fail as well.
-        if !(determinant.abs() > magnitude * 2f64.powi(-50)) {
+        if determinant.abs() <= magnitude * 2f64.powi(-50) {
             return None;
         }
         let mut inverse = [0.0; 12];

@@ -103,5 +103,10 @@ pub fn hit(ray: &ShearRay, triangle: [[f32; 3]; 3]) -> Option<TriangleHit> {
     let t = (u * f64::from(a[2]) + v * f64::from(b[2]) + w * f64::from(c[2])) / (determinant * ray.major);
     // Before rounding, which could make 0 of a hit behind the origin. `+ 0.0` turns -0 into 0.
     let (behind, t) = (t < 0.0, t as f32 + 0.0);
-    (!behind && t.is_finite()).then_some(TriangleHit { t, u: (v / determinant) as f32, v: (w / determinant) as f32, front: determinant > 0.0 })
+    (!behind && t.is_finite()).then_some(TriangleHit {
+        t,
+        u: (v / determinant) as f32,
+        v: (w / determinant) as f32,
+        front: determinant > 0.0,
+    })
 }

@@ -40,13 +40,11 @@ fn any_hit_decision_table() {
                 let name = format!("{geometry:?} {flags:?} ray {ray}");
                 assert_eq!(any_hit_verdict(geometry, flags, ray), verdict, "{name}");
                 for child in [&gas, &custom] {
-                    let ias = Ias::new(vec![Instance { flags, ..Instance::new(child.clone()) }]).unwrap();
+                    let instance = Instance { flags, ..Instance::new(child.clone()) };
+                    let accel = Accel::from(Ias::new(vec![instance]).unwrap());
                     for answer in [AnyHit::Accept, AnyHit::Ignore] {
                         let mut programs = Scripted { reports: vec![(9.5, 3)], ..Scripted::new(answer) };
                         let query = RayQuery { flags: ray, ..down() };
-                        let accel = Accel::Ias(Ias::new(vec![]).unwrap());
-                        assert!(trace(Some(&accel), &query, &mut programs).is_none());
-                        let accel = Accel::Ias(ias_of(&ias));
                         let hit = trace(Some(&accel), &query, &mut programs).is_some();
                         assert_eq!(programs.calls.len(), usize::from(verdict == Verdict::AnyHit), "{name}");
                         let ignored = verdict == Verdict::AnyHit && answer == AnyHit::Ignore;
@@ -56,10 +54,6 @@ fn any_hit_decision_table() {
             }
         }
     }
-}
-
-fn ias_of(ias: &Ias) -> Ias {
-    Ias::new(ias.instances().iter().map(|placed| placed.instance.clone()).collect()).unwrap()
 }
 
 #[test]
@@ -99,18 +93,20 @@ fn faces_flips_and_culling() {
                             of_instance = of_instance | InstanceFlags::DISABLE_TRIANGLE_FACE_CULLING;
                         }
                         let child = shared(stack(&[0.0], flags));
-                        let accel =
-                            Accel::from(Ias::new(vec![Instance { flags: of_instance, ..Instance::new(child) }]).unwrap());
+                        let accel = Accel::from(
+                            Ias::new(vec![Instance { flags: of_instance, ..Instance::new(child) }]).unwrap(),
+                        );
                         let side = if from_front { 1.0 } else { -1.0 };
-                        let ray = RayQuery {
-                            flags: cull,
-                            ..RayQuery::new([0.25, 0.25, 10.0 * side], [0.0, 0.0, -side])
-                        };
+                        let ray =
+                            RayQuery { flags: cull, ..RayQuery::new([0.25, 0.25, 10.0 * side], [0.0, 0.0, -side]) };
                         let kind = trace(Some(&accel), &ray, &mut Opaque).map(|hit| hit.hit_kind);
                         let front = from_front != flip;
                         let culled = culls_front == Some(front) && !disable && !by_geometry;
                         let expected = (!culled).then_some(if front { FRONT_FACE } else { BACK_FACE });
-                        assert_eq!(kind, expected, "front {from_front} flip {flip} off {disable} {by_geometry} ray {cull}");
+                        assert_eq!(
+                            kind, expected,
+                            "front {from_front} flip {flip} off {disable} {by_geometry} ray {cull}"
+                        );
                     }
                 }
             }

@@ -58,7 +58,8 @@ fn wrong_geometry_is_named() {
     for (input, error) in cases {
         assert_eq!(Gas::triangles(vec![good(), input]).unwrap_err(), error);
     }
-    let message = Gas::triangles(vec![TriangleInput { indices: Some(vec![[0, 1, 9]]), ..good() }]).unwrap_err().to_string();
+    let message =
+        Gas::triangles(vec![TriangleInput { indices: Some(vec![[0, 1, 9]]), ..good() }]).unwrap_err().to_string();
     assert!(message.contains("corner 2 of triangle 0 has vertex index 9") && message.contains("3 vertices (0 to 2)"));
 
     let offset = TriangleInput { primitive_index_offset: u32::MAX, ..good() };
@@ -91,7 +92,10 @@ fn wrong_instances_are_named() {
             BuildError::SbtOffsetSum { instance: 1, offset: 1, sum: 1 << 28 },
         ),
         (Instance { transform: flat, ..good() }, BuildError::SingularTransform { instance: 1, transform: flat }),
-        (Instance { transform: [0.0; 12], ..good() }, BuildError::SingularTransform { instance: 1, transform: [0.0; 12] }),
+        (
+            Instance { transform: [0.0; 12], ..good() },
+            BuildError::SingularTransform { instance: 1, transform: [0.0; 12] },
+        ),
         (Instance { flags: both, ..good() }, BuildError::AnyHitFlags { instance: 1 }),
     ];
     for (instance, error) in cases {

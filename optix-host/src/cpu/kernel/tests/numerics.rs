@@ -39,12 +39,12 @@ fn exact_sign(a: f32, b: f32, c: f32, d: f32) -> Ordering {
     if p == 0 || q == 0 || p.signum() != q.signum() {
         return p.signum().cmp(&q.signum());
     }
-    // Bring both to the smaller exponent; beyond 70 bits apart the larger exponent decides, since |p|, |q| < 2^48.
+    // Bring both to the smaller exponent; 71 and more apart the larger one decides, since |p|, |q| < 2^48.
     match e - f {
-        d @ 71.. => if p > 0 { Ordering::Greater } else { let _ = d; Ordering::Less },
-        d @ 0..=70 => (p << d).cmp(&q),
-        d @ -70..=-1 => p.cmp(&(q << -d)),
-        _ => if q > 0 { Ordering::Less } else { Ordering::Greater },
+        71.. => p.cmp(&0),
+        up @ 0.. => (p << up).cmp(&q),
+        down @ -70.. => p.cmp(&(q << -down)),
+        _ => 0.cmp(&q),
     }
 }
 
@@ -169,7 +169,9 @@ fn hits_and_distances_keep_their_bound() {
         worst = worst.max((depth - exact.depth).abs() / bound);
         checked += 1;
     }
-    println!("{checked} distances, the worst at {worst:.3} of the bound; {sure_hits} sure hits, {sure_misses} sure misses");
+    println!(
+        "{checked} distances, the worst at {worst:.3} of the bound; {sure_hits} sure hits, {sure_misses} sure misses"
+    );
     assert!(checked > 50_000 && sure_hits > 100_000 && sure_misses > 10_000);
 }
 
@@ -214,12 +216,14 @@ fn traversal_equals_brute_force() {
             let j = if random.below(2) == 0 { i } else { random.below(150) };
             j as u32
         };
-        let indices: Vec<[u32; 3]> =
-            (0..200).map(|i| [near(&mut random, i % 150), random.below(150) as u32, random.below(150) as u32]).collect();
+        let indices: Vec<[u32; 3]> = (0..200)
+            .map(|i| [near(&mut random, i % 150), random.below(150) as u32, random.below(150) as u32])
+            .collect();
         let accel = mesh(&vertices, &indices);
         for i in 0..200 {
-            let mut origin: [f32; 3] =
-                std::array::from_fn(|a| ((random.signed() * 1.5 + if kind == 3 { offset[a] } else { 0.0 }) * scale) as f32);
+            let mut origin: [f32; 3] = std::array::from_fn(|a| {
+                ((random.signed() * 1.5 + if kind == 3 { offset[a] } else { 0.0 }) * scale) as f32
+            });
             if kind == 5 {
                 origin = origin.map(|x| (x * 4.0).round() / 4.0);
             }
@@ -296,8 +300,8 @@ fn vector_kernels_are_bit_identical() {
         let task = || Both { block: &block, bvh: &gas.bvh, frame: &frame, limit };
         let (a, b) = (avx2.run(task()), Portable.run(task()));
         assert_eq!(a, b);
-        for lane in 0..8 {
-            if hit(&frame.shear, triangles[lane]).is_some() {
+        for (lane, &triangle) in triangles.iter().enumerate() {
+            if hit(&frame.shear, triangle).is_some() {
                 assert!(a.0 >> lane & 1 != 0, "the vector test dropped a hit");
             }
         }

@@ -215,7 +215,8 @@ fn escape(mesh: &Mesh, rays: usize, seed: u64, tally: &mut Tally) {
                 .filter(|i| {
                     let origin = origins[random.below(origins.len())];
                     let corners = mesh.indices[random.below(mesh.indices.len())].map(|i| vertices[i as usize]);
-                    let towards = |p: [f64; 3]| -> [f32; 3] { std::array::from_fn(|a| (p[a] - f64::from(origin[a])) as f32) };
+                    let towards =
+                        |p: [f64; 3]| -> [f32; 3] { std::array::from_fn(|a| (p[a] - f64::from(origin[a])) as f32) };
                     let [a, b] = [corners[0], corners[1]].map(|v| v.map(f64::from));
                     let direction = match i % 6 {
                         0 => towards(a),
@@ -291,7 +292,8 @@ fn threads_do_not_change_the_result() {
                 .into_par_iter()
                 .map(|i| {
                     let mut random = Random(i);
-                    let query = RayQuery::new(random.sphere().map(|x| 2.0 * x as f32), random.sphere().map(|x| x as f32));
+                    let query =
+                        RayQuery::new(random.sphere().map(|x| 2.0 * x as f32), random.sphere().map(|x| x as f32));
                     trace(Some(&accel), &query, &mut Opaque).map(|h| (h.t.to_bits(), h.primitive_index, h.attributes))
                 })
                 .collect::<Vec<_>>()

@@ -1,6 +1,6 @@
 //! What must not compile, with the message it gives, and what must.
 //!
-//! `TRYBUILD=overwrite cargo test -p optix-tests --test ui` writes the messages anew; read each of them as someone who
+//! `TRYBUILD=overwrite cargo test -p optix-macro-tests --test ui` writes the messages anew; read each of them as someone who
 //! has never seen this project.
 
 #[test]
