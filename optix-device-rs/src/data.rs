@@ -2,9 +2,7 @@
 
 use crate::ray::Traversable;
 use crate::view::{Slice, SliceMut, SliceMut2d};
-use glam::{
-    Affine3A, IVec2, IVec3, IVec4, Mat3, Mat4, Quat, UVec2, UVec3, UVec4, Vec2, Vec3, Vec3A, Vec4,
-};
+use glam::{Affine3A, IVec2, IVec3, IVec4, Mat3, Mat4, Quat, UVec2, UVec3, UVec4, Vec2, Vec3, Vec3A, Vec4};
 
 /// Plain data with one layout on host and device, which may cross by a copy of its bytes.
 ///
@@ -96,8 +94,7 @@ const _: () = assert!(size_of::<Affine3A>() == 64 && align_of::<Affine3A>() == 1
 unsafe impl DeviceData for Affine3A {
     #[inline]
     fn write_to(&self, bytes: &mut [u8]) {
-        let columns =
-            [self.matrix3.x_axis, self.matrix3.y_axis, self.matrix3.z_axis, self.translation];
+        let columns = [self.matrix3.x_axis, self.matrix3.y_axis, self.matrix3.z_axis, self.translation];
         columns.write_to(bytes);
     }
 }

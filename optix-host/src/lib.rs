@@ -17,9 +17,9 @@ pub mod report;
 pub mod sbt;
 pub mod scene;
 
-pub use glam;
 pub use device::{BackendKind, Device, OptixOptions};
 pub use error::Error;
+pub use glam;
 pub use optix_device_rs::host::{Buffer, Buffer2d, MemoryError, World};
 pub use pipeline::{Launch, Pipeline, PipelineBuilder};
 pub use scene::{Aabb, Accel, Boxes, Geometry, Instance, Material, Scene, TriangleMesh};

@@ -72,7 +72,11 @@ impl Model {
             Vec3::from_array(core::array::from_fn(|k| (f64::from(p[k]) * scale + by[k]) as f32))
         };
         let positions = self.positions.iter().map(place).collect();
-        Self { name: format!("{}, scaled by {scale:e}, moved by {by:?}", self.name), positions, indices: self.indices.clone() }
+        Self {
+            name: format!("{}, scaled by {scale:e}, moved by {by:?}", self.name),
+            positions,
+            indices: self.indices.clone(),
+        }
     }
 
     /// Whether every edge has as many triangles on one side as on the other: no ray from inside can leave.

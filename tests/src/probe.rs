@@ -2,8 +2,8 @@
 
 use glam::{Affine3A, Vec3};
 use optix_host::{Buffer, Device, Pipeline, Result, Scene, TriangleMesh, World};
-pub use probe_shaders::{ProbeHit, ProbeRay};
 use probe_shaders::{Probe, ProbeFrameHost, Surface, respawn};
+pub use probe_shaders::{ProbeHit, ProbeRay};
 
 /// The PTX of the probe shaders.
 pub const PTX: &str = optix_host::ptx!(probe_shaders);

@@ -45,7 +45,11 @@ impl Triangles {
         let parts: Vec<_> = self
             .parts
             .iter()
-            .map(|(positions, indices, transform)| Part { positions, indices: indices.as_deref(), transform: *transform })
+            .map(|(positions, indices, transform)| Part {
+                positions,
+                indices: indices.as_deref(),
+                transform: *transform,
+            })
             .collect();
         Tracer::new(device, &parts).unwrap()
     }

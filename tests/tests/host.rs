@@ -29,10 +29,7 @@ fn bad_geometry_is_named() {
     says(scene.geometry(TriangleMesh::new(&[])), &["triangle mesh", "no primitives"]);
     says(scene.geometry(TriangleMesh::new(&TRIANGLE[..2])), &["2 positions"]);
     let out = scene.geometry(TriangleMesh::new(&TRIANGLE).indices(&[[0, 1, 2], [0, 3, 1]]));
-    assert!(matches!(
-        out,
-        Err(Error::Geometry(GeometryError::IndexOutOfRange { triangle: 1, index: 3, vertices: 3 }))
-    ));
+    assert!(matches!(out, Err(Error::Geometry(GeometryError::IndexOutOfRange { triangle: 1, index: 3, vertices: 3 }))));
     let mut broken = TRIANGLE;
     broken[1].y = f32::NAN;
     says(scene.geometry(TriangleMesh::new(&broken)), &["vertex 1", "NaN"]);
@@ -98,8 +95,7 @@ fn a_bound_parameter_that_differs_is_refused() {
     let white = scene.material(Lambert { albedo: Vec3::ONE }).unwrap();
     let geometry = scene.geometry(TriangleMesh::new(&TRIANGLE)).unwrap();
     let gas = scene.gas([geometry.with(&white)]).build().unwrap();
-    let pipeline =
-        Pipeline::for_scene(&scene).bind(path_tracer::shaders::Frame::MAX_BOUNCES, 3).build().unwrap();
+    let pipeline = Pipeline::for_scene(&scene).bind(path_tracer::shaders::Frame::MAX_BOUNCES, 3).build().unwrap();
     let film = || device.zeroed_2d([4, 4]).unwrap();
     let camera = path_tracer::shaders::Pinhole::look_at(Vec3::Z * 3.0, Vec3::ZERO, Vec3::Y, 0.7, 1.0);
     let light = AreaLight { corner: Vec3::Z, side: Vec3::X, other: Vec3::Y, emission: Vec3::ONE };
@@ -133,10 +129,7 @@ fn instances_over_two_levels() {
         let gas = scene.gas([geometry.with(&paint)]).compact().build().unwrap();
         let left = Affine3A::from_translation(Vec3::new(-4.0, 0.0, 0.0));
         let right = Affine3A::from_translation(Vec3::new(4.0, 0.0, 0.0));
-        let pair = scene.ias([
-            gas.at(left).id(7),
-            gas.at(right).id(8).flags(InstanceFlags::FLIP_TRIANGLE_FACING),
-        ]);
+        let pair = scene.ias([gas.at(left).id(7), gas.at(right).id(8).flags(InstanceFlags::FLIP_TRIANGLE_FACING)]);
         let pair = pair.build().unwrap();
         let up = Affine3A::from_translation(Vec3::new(0.0, 10.0, 0.0));
         let both = scene.ias([pair.at(Affine3A::IDENTITY).id(1), pair.at(up).id(2).mask(2)]).build().unwrap();

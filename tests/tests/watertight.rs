@@ -4,9 +4,9 @@
 
 use glam::{Affine3A, Vec3};
 use optix_device_rs::rng::Pcg32;
+use optix_tests::devices;
 use optix_tests::meshes::{self, Model};
 use optix_tests::probe::{Part, ProbeRay, Tracer, ray};
-use optix_tests::devices;
 
 /// Rays from points inside: in all directions, at points of edges, at vertices.
 fn rays(model: &Model, inside: &[Vec3], count: usize, rng: &mut Pcg32) -> Vec<ProbeRay> {

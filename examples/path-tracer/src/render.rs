@@ -38,7 +38,8 @@ pub struct Settings {
 impl Render {
     /// Makes ready to render a scene.
     pub fn new(device: &Device, cornell: &Cornell, settings: Settings) -> Result<Self> {
-        let pipeline = Pipeline::for_scene(&cornell.scene).ptx(PTX).bind(Frame::MAX_BOUNCES, settings.bounces).build()?;
+        let pipeline =
+            Pipeline::for_scene(&cornell.scene).ptx(PTX).bind(Frame::MAX_BOUNCES, settings.bounces).build()?;
         let (sum, squares) = (device.zeroed_2d(settings.size)?, device.zeroed_2d(settings.size)?);
         let frame = FrameHost {
             sum: sum.clone(),

@@ -26,14 +26,8 @@ pub struct HitState {
 
 impl HitState {
     /// For programs without a hit.
-    pub const NONE: Self = Self {
-        primitive_index: 0,
-        sbt_gas_index: 0,
-        instance_id: !0,
-        instance_index: 0,
-        kind: 0,
-        attributes: [0; 8],
-    };
+    pub const NONE: Self =
+        Self { primitive_index: 0, sbt_gas_index: 0, instance_id: !0, instance_index: 0, kind: 0, attributes: [0; 8] };
 }
 
 /// Everything a program call on the host can see.

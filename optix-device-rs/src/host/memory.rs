@@ -102,9 +102,7 @@ impl<T: Element> Buffer<T> {
             )));
         }
         // SAFETY: an `Element` has no padding, so all its bytes are initialised.
-        let bytes = unsafe {
-            core::slice::from_raw_parts(elements.as_ptr().cast::<u8>(), size_of_val(elements))
-        };
+        let bytes = unsafe { core::slice::from_raw_parts(elements.as_ptr().cast::<u8>(), size_of_val(elements)) };
         self.memory.write(0, bytes)
     }
 }

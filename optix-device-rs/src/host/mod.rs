@@ -9,8 +9,8 @@ mod twin;
 pub use crate::attributes::GeometryKind;
 pub use crate::machine::TraceCall;
 pub use description::{
-    Entry, HitGroupDescription, HitPrograms, ParamsDescription, PayloadDescription,
-    PipelineDescription, ProgramDescription, RayDescription, RecordLayout,
+    Entry, HitGroupDescription, HitPrograms, ParamsDescription, PayloadDescription, PipelineDescription,
+    ProgramDescription, RayDescription, RecordLayout,
 };
 pub use frame::{Executor, Frame, HitState};
 pub use memory::{Buffer, Buffer2d, DeviceId, Memory, MemoryError, World};

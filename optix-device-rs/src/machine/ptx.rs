@@ -107,11 +107,7 @@ macro_rules! get_f32 {
 
 macro_rules! get_vec3 {
     ($name:literal) => {
-        Vec3::new(
-            get_f32!(concat!($name, "_x")),
-            get_f32!(concat!($name, "_y")),
-            get_f32!(concat!($name, "_z")),
-        )
+        Vec3::new(get_f32!(concat!($name, "_x")), get_f32!(concat!($name, "_y")), get_f32!(concat!($name, "_z")))
     };
 }
 
@@ -181,10 +177,38 @@ impl Cx {
     #[inline(always)]
     pub fn trace(&self, call: &TraceCall) -> WordBuffer {
         let [
-            mut p0, mut p1, mut p2, mut p3, mut p4, mut p5, mut p6, mut p7,
-            mut p8, mut p9, mut p10, mut p11, mut p12, mut p13, mut p14, mut p15,
-            mut p16, mut p17, mut p18, mut p19, mut p20, mut p21, mut p22, mut p23,
-            mut p24, mut p25, mut p26, mut p27, mut p28, mut p29, mut p30, mut p31,
+            mut p0,
+            mut p1,
+            mut p2,
+            mut p3,
+            mut p4,
+            mut p5,
+            mut p6,
+            mut p7,
+            mut p8,
+            mut p9,
+            mut p10,
+            mut p11,
+            mut p12,
+            mut p13,
+            mut p14,
+            mut p15,
+            mut p16,
+            mut p17,
+            mut p18,
+            mut p19,
+            mut p20,
+            mut p21,
+            mut p22,
+            mut p23,
+            mut p24,
+            mut p25,
+            mut p26,
+            mut p27,
+            mut p28,
+            mut p29,
+            mut p30,
+            mut p31,
         ] = call.payload.0;
         let ray = &call.ray;
         // Registers of words the payload does not have are declared in the block and never read.
@@ -245,8 +269,8 @@ impl Cx {
             p16 p17 p18 p19 p20 p21 p22 p23 p24 p25 p26 p27 p28 p29 p30 p31
         ]);
         WordBuffer([
-            p0, p1, p2, p3, p4, p5, p6, p7, p8, p9, p10, p11, p12, p13, p14, p15,
-            p16, p17, p18, p19, p20, p21, p22, p23, p24, p25, p26, p27, p28, p29, p30, p31,
+            p0, p1, p2, p3, p4, p5, p6, p7, p8, p9, p10, p11, p12, p13, p14, p15, p16, p17, p18, p19, p20, p21, p22,
+            p23, p24, p25, p26, p27, p28, p29, p30, p31,
         ])
     }
 
@@ -426,11 +450,7 @@ impl Cx {
             )
         };
         v = [a, b, c, d, e, f, g, h, i];
-        [
-            Vec3::new(v[0], v[1], v[2]),
-            Vec3::new(v[3], v[4], v[5]),
-            Vec3::new(v[6], v[7], v[8]),
-        ]
+        [Vec3::new(v[0], v[1], v[2]), Vec3::new(v[3], v[4], v[5]), Vec3::new(v[6], v[7], v[8])]
     }
 
     /// Three rows of the object-to-world matrix.

@@ -211,11 +211,7 @@ pub trait IntersectionProgram<P: Pipeline, Rec: SbtRecord, R: Payload> {
     /// What its hits carry.
     type Attributes: Attributes;
     /// Calls the function.
-    fn run(
-        cx: &Intersection<P, Self::Attributes>,
-        record: &Rec,
-        input: R::AtIntersection,
-    ) -> R::FromIntersection;
+    fn run(cx: &Intersection<P, Self::Attributes>, record: &Rec, input: R::AtIntersection) -> R::FromIntersection;
 }
 
 /// Reads the record; its type was checked by `pipeline!` and its layout is [`DeviceData`]'s.

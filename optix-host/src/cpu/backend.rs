@@ -1,6 +1,6 @@
 //! The CPU as a backend: it turns the scene's description into the kernel's structures and runs launches.
 
-use super::kernel::{self, Accel, AabbInput, Gas, GeometryFlags, Ias, Instance, SbtMapping, TriangleInput};
+use super::kernel::{self, AabbInput, Accel, Gas, GeometryFlags, Ias, Instance, SbtMapping, TriangleInput};
 use super::machine::{self, Job};
 use super::memory::CpuMemory;
 use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, InstanceInput, Linked, Running, next_device_id};
@@ -49,9 +49,10 @@ impl Backend for CpuBackend {
 
     fn build_ias(&self, instances: &[InstanceInput]) -> Result<BuiltAccel> {
         let instances = instances.iter().map(|instance| {
-            let child = instance.child.owner.clone().downcast::<Accel>().map_err(|_| {
-                Error::Scene("an instance is of an acceleration structure of another device".into())
-            })?;
+            let child =
+                instance.child.owner.clone().downcast::<Accel>().map_err(|_| {
+                    Error::Scene("an instance is of an acceleration structure of another device".into())
+                })?;
             Ok(Instance {
                 transform: instance.transform,
                 instance_id: instance.id,
@@ -116,8 +117,12 @@ impl Linked for CpuPipeline {
     }
 
     fn details(&self) -> Vec<String> {
-        vec![format!("records: {} hit, {} miss, stride {} bytes", self.sbt.hit.programs().len(),
-            self.sbt.miss.programs().len(), self.sbt.hit.stride())]
+        vec![format!(
+            "records: {} hit, {} miss, stride {} bytes",
+            self.sbt.hit.programs().len(),
+            self.sbt.miss.programs().len(),
+            self.sbt.hit.stride()
+        )]
     }
 }
 

@@ -85,7 +85,15 @@ fn run_index(job: &Job<'_>, index: UVec3) -> Result<()> {
     let raygen = &job.plan.description.raygen[job.raygen].entry;
     let call = Call { job, index, depth: 0, running: &Cell::new(raygen.name), payload: &Cell::new(WordBuffer::ZERO) };
     let outcome = catch_unwind(AssertUnwindSafe(|| {
-        let _ = call.run(raygen, &job.sbt.raygen, job.raygen, Ray::new(Vec3::ZERO, Vec3::ZERO), HitState::NONE, None, &call);
+        let _ = call.run(
+            raygen,
+            &job.sbt.raygen,
+            job.raygen,
+            Ray::new(Vec3::ZERO, Vec3::ZERO),
+            HitState::NONE,
+            None,
+            &call,
+        );
     }));
     outcome.map_err(|panic| {
         let what = if let Some(Trap(what)) = panic.downcast_ref() {

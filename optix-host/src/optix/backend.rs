@@ -75,9 +75,10 @@ impl Backend for OptixBackend {
 
     fn build_ias(&self, instances: &[InstanceInput]) -> Result<BuiltAccel> {
         let instances = instances.iter().map(|instance| {
-            let child = instance.child.owner.downcast_ref::<Accel>().ok_or_else(|| {
-                Error::Scene("an instance is of an acceleration structure of another device".into())
-            })?;
+            let child =
+                instance.child.owner.downcast_ref::<Accel>().ok_or_else(|| {
+                    Error::Scene("an instance is of an acceleration structure of another device".into())
+                })?;
             Ok(Instance {
                 transform: instance.transform,
                 id: instance.id,
@@ -209,7 +210,12 @@ impl OptixPipeline {
         let mut details = vec![
             format!("program groups: {}", groups_count(&raygen, &miss, &hit)),
             format!("continuation stack: {} bytes", stack.continuation),
-            format!("records: {} hit, {} miss, stride {} bytes", hit.programs().len(), miss.programs().len(), hit.stride()),
+            format!(
+                "records: {} hit, {} miss, stride {} bytes",
+                hit.programs().len(),
+                miss.programs().len(),
+                hit.stride()
+            ),
         ];
         details.extend(module.log().lines().map(|line| format!("compiler: {line}")));
         Ok(Self { pipeline, table, details })
@@ -318,8 +324,7 @@ fn payload_types(plan: &Plan) -> Result<Vec<PayloadType>> {
 
 impl Linked for OptixPipeline {
     fn launch(&self, raygen: usize, params: &[u8], dimensions: [u32; 3]) -> Result<Box<dyn Running>> {
-        let args =
-            LaunchArgs { sbt: &self.table, raygen: raygen as u32, params, dims: dimensions, keep: Vec::new() };
+        let args = LaunchArgs { sbt: &self.table, raygen: raygen as u32, params, dims: dimensions, keep: Vec::new() };
         // SAFETY: parameters and records were lowered from the pipeline's own types, whose layout is asserted on both
         // sides; their views come from owners on this device, which `crate::Launch` and `crate::Pipeline` hold until the
         // launch is done; `Pipeline::check_world` refuses structures that the options or the table do not cover, and

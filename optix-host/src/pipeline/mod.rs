@@ -65,12 +65,7 @@ impl<P: PipelineType> Pipeline<P> {
         self.begin(<P as HasRayGen<Prog>>::INDEX as usize, params, dimensions)
     }
 
-    fn begin(
-        &self,
-        raygen: usize,
-        params: &<P::Params as LaunchParams>::Host,
-        dimensions: [u32; 3],
-    ) -> Result<Launch> {
+    fn begin(&self, raygen: usize, params: &<P::Params as LaunchParams>::Host, dimensions: [u32; 3]) -> Result<Launch> {
         let error = |what: String| Error::Launch { pipeline: self.plan.description.name, what };
         let size = dimensions.iter().map(|&d| d as u64).product::<u64>();
         let [w, h, d] = dimensions;

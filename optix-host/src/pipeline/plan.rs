@@ -177,11 +177,7 @@ fn needed_entries(description: &PipelineDescription, used: &BTreeSet<usize>) -> 
 
 /// How deep trace calls nest: the longest path from ray generation over ray types, where a ray type leads to those that its
 /// programs trace.
-fn trace_depth(
-    description: &PipelineDescription,
-    entries: &[Reached],
-    ptx: Option<&str>,
-) -> Result<(u32, String)> {
+fn trace_depth(description: &PipelineDescription, entries: &[Reached], ptx: Option<&str>) -> Result<(u32, String)> {
     let error = |what: String| Error::Pipeline { pipeline: description.name, what };
     if let Some(depth) = description.trace_depth {
         return match depth {
@@ -198,7 +194,10 @@ fn trace_depth(
     let mut roots = BTreeSet::new();
     for reached in entries {
         let entry = by_name.get(reached.name).ok_or_else(|| {
-            error(format!("the PTX has no entry {}: it is of another build or crate than the host's pipeline", reached.name))
+            error(format!(
+                "the PTX has no entry {}: it is of another build or crate than the host's pipeline",
+                reached.name
+            ))
         })?;
         let types = ptx::traced_types(entry).ok_or_else(|| {
             error(format!(

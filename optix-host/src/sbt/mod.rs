@@ -107,7 +107,9 @@ impl ShaderBindingTable {
         let description = &plan.description;
         let missing = |kind: &str, function: &str, record: &str, call: String| Error::Pipeline {
             pipeline: description.name,
-            what: format!("the {kind} program `{function}` reads a record `{record}` that the scene was not given: call {call}"),
+            what: format!(
+                "the {kind} program `{function}` reads a record `{record}` that the scene was not given: call {call}"
+            ),
         };
         for (given, ray) in scene.miss.iter().zip(description.rays) {
             if let (None, Some(miss)) = (&given.bytes, ray.miss) {

@@ -12,11 +12,11 @@ pub use material::Material;
 pub(crate) use material::MaterialState;
 
 use crate::{Device, Error, Result};
+use optix_device_rs::data::DeviceData;
 use optix_device_rs::host::{GeometryKind, KeepAlive, Twin};
 use optix_device_rs::payload::Payload;
 use optix_device_rs::pipeline::{HasRay, HasRayGen, Pipeline};
 use optix_device_rs::record::SbtRecord;
-use optix_device_rs::data::DeviceData;
 use std::any::Any;
 use std::collections::HashMap;
 use std::marker::PhantomData;

@@ -47,7 +47,11 @@ pub fn ball(isect: &Intersection<PathTracer, BallHit>, record: &Ball) {
 
 /// Reflects the path.
 #[closesthit]
-pub fn mirror(hit: &ClosestHit<PathTracer, BallHit>, record: &Ball, ray: RadianceAtClosestHit) -> RadianceFromClosestHit {
+pub fn mirror(
+    hit: &ClosestHit<PathTracer, BallHit>,
+    record: &Ball,
+    ray: RadianceAtClosestHit,
+) -> RadianceFromClosestHit {
     let normal = hit.attributes().normal;
     let object = normal * record.radius;
     // The intersection squares distances up to the radius: its roundings move the surface by some ulp of the radius.

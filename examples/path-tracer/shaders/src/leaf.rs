@@ -34,7 +34,11 @@ pub fn cut_out(hit: &AnyHit<PathTracer, Triangles>) -> Decision {
 
 /// Shades the leaf, with its veins.
 #[closesthit]
-pub fn leaf(hit: &ClosestHit<PathTracer, Triangles>, record: &Leaf, ray: RadianceAtClosestHit) -> RadianceFromClosestHit {
+pub fn leaf(
+    hit: &ClosestHit<PathTracer, Triangles>,
+    record: &Leaf,
+    ray: RadianceAtClosestHit,
+) -> RadianceFromClosestHit {
     let at = place(hit.primitive_index(), hit.barycentrics());
     let across = (at.y - 0.5).abs();
     let stripe = (at.x - 0.6 * across) * 9.0;
