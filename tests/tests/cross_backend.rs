@@ -18,10 +18,13 @@ fn knot_in_place() -> mesh::Mesh {
     mesh
 }
 
-/// The triangles of the default scene: part, object space, placement. The mesh stands turned, so transforms count.
+/// The triangles of the default scene. The mesh stands turned, so transforms count.
 struct Triangles {
-    parts: Vec<(Vec<Vec3>, Option<Vec<[u32; 3]>>, Affine3A)>,
+    parts: Vec<Placed>,
 }
+
+/// Positions and indices in object space, and where they are placed.
+type Placed = (Vec<Vec3>, Option<Vec<[u32; 3]>>, Affine3A);
 
 impl Triangles {
     fn of_default_scene() -> Self {

@@ -4,10 +4,10 @@
 //!
 //! | module | what |
 //! | --- | --- |
-//! | [`gas`], [`ias`] | structures and their inputs, checked |
-//! | [`binary`], [`collapse`], [`bvh`] | the 8-wide hierarchy: built by obvhs, collapsed at least cost, laid out |
-//! | [`ray`], [`simd`], [`triangle`] | the arithmetic: box and triangle tests, their error bounds |
-//! | [`trace`](mod@trace), [`state`], [`program`], [`path`] | traversal, any-hit, reports, hits |
+//! | `gas`, `ias` | structures and their inputs, checked |
+//! | `binary`, `collapse`, `bvh` | the 8-wide hierarchy: built by obvhs, collapsed at least cost, laid out |
+//! | `ray`, `simd`, `triangle` | the arithmetic: box and triangle tests, their error bounds |
+//! | `trace`, `state`, `program`, `path` | traversal, any-hit, reports, hits |
 
 mod aabb;
 mod binary;

@@ -28,7 +28,7 @@ pub const BACK_FACE: u8 = 255;
 /// Which candidates behind the final hit are offered to any-hit depends on the order of traversal, as the guide allows
 /// (§13.4); that order is the same in every run.
 ///
-/// Watertight within a GAS: see [`triangle`]. Between instances nothing is promised, as in OptiX, because each has a
+/// Watertight within a GAS: see `triangle.rs`. Between instances nothing is promised, as in OptiX, because each has a
 /// ray of its own.
 #[inline]
 pub fn trace<'a, P: Programs>(accel: Option<&'a Accel>, ray: &RayQuery, programs: &mut P) -> Option<Hit<'a>> {
