@@ -36,7 +36,8 @@ pub trait Memory: Any + Send + Sync {
     fn write(&self, offset: usize, bytes: &[u8]) -> Result<(), MemoryError>;
 }
 
-/// A buffer of `T` on a device: the host twin of [`Slice`] and [`SliceMut`]. A clone is the same buffer.
+/// A buffer of `T` on a device: the host twin of [`Slice`](crate::view::Slice) and
+/// [`SliceMut`](crate::view::SliceMut). A clone is the same buffer.
 pub struct Buffer<T> {
     pub(super) memory: Arc<dyn Memory>,
     pub(super) len: usize,
@@ -107,7 +108,7 @@ impl<T: Element> Buffer<T> {
     }
 }
 
-/// A two-dimensional buffer: the host twin of [`SliceMut2d`]. A clone is the same buffer.
+/// A two-dimensional buffer: the host twin of [`SliceMut2d`](crate::view::SliceMut2d). A clone is the same buffer.
 pub struct Buffer2d<T> {
     pub(super) buffer: Buffer<T>,
     pub(super) size: [u32; 2],
@@ -152,7 +153,7 @@ impl<T: Element> Buffer2d<T> {
     }
 }
 
-/// An acceleration structure of a scene: the host twin of [`Traversable`]. A clone is the same structure.
+/// An acceleration structure of a scene: the host twin of [`Traversable`](crate::ray::Traversable). A clone is the same structure.
 #[derive(Clone)]
 pub struct World {
     pub(super) handle: u64,
