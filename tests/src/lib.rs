@@ -3,3 +3,8 @@
 pub mod devices;
 pub mod meshes;
 pub mod probe;
+
+/// The README's example, which is to compile and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
