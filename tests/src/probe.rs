@@ -1,7 +1,8 @@
 //! Traces lists of rays through the probe pipeline.
 
 use glam::{Affine3A, Vec3};
-use optix_host::{Buffer, Device, Pipeline, Result, Scene, TriangleMesh, World};
+use optix_host::{Aabb, Boxes, Buffer, Device, Pipeline, Result, Scene, TriangleMesh, World};
+use path_tracer::shaders::Ball;
 use probe_shaders::{Probe, ProbeFrameHost, Surface, respawn};
 pub use probe_shaders::{ProbeHit, ProbeRay};
 
@@ -39,6 +40,11 @@ pub struct Tally {
 impl Tracer {
     /// Builds the scene.
     pub fn new(device: &Device, parts: &[Part<'_>]) -> Result<Self> {
+        Self::with_balls(device, parts, &[])
+    }
+
+    /// Builds the scene, with unit balls so placed after the parts.
+    pub fn with_balls(device: &Device, parts: &[Part<'_>], balls: &[Affine3A]) -> Result<Self> {
         let mut scene = Scene::<Probe>::new(device);
         let surface = scene.material(Surface {})?;
         let mut instances = Vec::new();
@@ -48,6 +54,12 @@ impl Tracer {
             let geometry = scene.geometry(mesh)?;
             let gas = scene.gas([geometry.with(&surface)]).compact().build()?;
             instances.push(gas.at(part.transform).id(id as u32));
+        }
+        if !balls.is_empty() {
+            let ball = scene.material(Ball { radius: 1.0, reflectance: Vec3::ONE })?;
+            let unit = scene.geometry(Boxes(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }]))?;
+            let gas = scene.gas([unit.with(&ball)]).compact().build()?;
+            instances.extend(balls.iter().zip(parts.len()..).map(|(&at, id)| gas.at(at).id(id as u32)));
         }
         let world = scene.ias(instances).build()?.world()?;
         let pipeline = Pipeline::for_scene(&scene).ptx(PTX).build()?;

@@ -34,7 +34,7 @@ fn none_in_the_default_scene() {
         Part { positions: &leaf, indices: None, transform: here },
     ];
     for device in devices::all("none_in_the_default_scene") {
-        let tracer = Tracer::new(&device, &parts).unwrap();
+        let tracer = Tracer::with_balls(&device, &parts, &[scene::ball_placement()]).unwrap();
         let rays = rays_at(Vec3::ZERO, 1.0, 20_000);
         let tally = tracer.respawn(&rays, 50, 1.0).unwrap();
         println!("self-hits in the default scene on {}: {tally:?}", device.description());

@@ -2,6 +2,7 @@
 #![no_std]
 
 use optix_device_rs::prelude::*;
+use path_tracer_shaders::ball::{self, Ball, BallHit};
 
 /// A ray to trace.
 #[derive(Clone, Copy, Debug, PartialEq, Element)]
@@ -110,8 +111,10 @@ pub fn respawn(rg: &RayGen<Probe>) {
         let mut rng = Pcg32::hashed(index as u64, 1);
         let mut i = 0;
         while i < frame.secondary() {
+            // Into a ball a ray meets it again, rightly; from a triangle it may go to both sides.
             let direction = sphere(rng.next_vec2());
-            let hit = nearest(rg, point.ray(direction));
+            let into = first.kind < 128 && direction.dot(first.normal) < 0.0;
+            let hit = nearest(rg, point.ray(if into { -direction } else { direction }));
             let own = hit.instance == first.instance && hit.primitive == first.primitive;
             tally = [tally[0] + own as u32, tally[1] + (hit.instance == !0) as u32, tally[2] + 1, 0];
             i += 1;
@@ -136,16 +139,26 @@ fn sphere(at: Vec2) -> Vec3 {
     Vec3::new(r * cos, r * sin, z)
 }
 
-/// Reports the hit.
+/// Reports a hit on a triangle.
 #[closesthit]
 fn found(hit: &ClosestHit<Probe, Triangles>) -> NearestFromClosestHit {
-    let point = hit.surface_point();
+    found_at(hit, hit.barycentrics(), hit.surface_point())
+}
+
+/// Reports a hit on a ball, whose intersection program is the path tracer's.
+#[closesthit]
+fn found_ball(hit: &ClosestHit<Probe, BallHit>, record: &Ball) -> NearestFromClosestHit {
+    let point = record.surface_point(hit.attributes().normal, &hit.object_to_world(), &hit.world_to_object());
+    found_at(hit, Vec2::ZERO, point)
+}
+
+fn found_at<A: Attributes>(hit: &ClosestHit<Probe, A>, at: Vec2, point: SurfacePoint) -> NearestFromClosestHit {
     NearestFromClosestHit {
         instance: hit.instance_id().unwrap_or(0),
         primitive: hit.primitive_index(),
         kind: hit.hit_kind() as u32,
         t: hit.ray_tmax(),
-        at: hit.barycentrics(),
+        at,
         position: point.position,
         normal: point.normal,
         error: point.error,
@@ -172,6 +185,9 @@ pipeline! {
         params: ProbeFrame,
         raygen: [probe, respawn],
         rays: { Nearest { miss: nothing } },
-        hitgroups: { Surface on Triangles => { Nearest { closesthit: found } } },
+        hitgroups: {
+            Surface on Triangles => { Nearest { closesthit: found } },
+            Ball on Custom => { Nearest { intersection: ball::ball, closesthit: found_ball } },
+        },
     }
 }

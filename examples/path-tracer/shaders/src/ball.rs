@@ -1,4 +1,4 @@
-//! A mirror ball: a custom primitive with an intersection program.
+//! A mirror ball: a custom primitive with an intersection program, which serves any pipeline.
 
 use crate::{PathTracer, RadianceAtClosestHit, RadianceFromClosestHit};
 use optix_device_rs::prelude::*;
@@ -14,6 +14,15 @@ pub struct Ball {
     pub reflectance: Vec3,
 }
 
+impl Ball {
+    /// The point with this object-space normal.
+    pub fn surface_point(&self, normal: Vec3, to_world: &Transform, to_object: &Transform) -> SurfacePoint {
+        // The intersection squares distances up to the radius: its roundings move the surface by some ulp of the radius.
+        let error = Vec3::splat(self.radius * gamma(16));
+        SurfacePoint::of_object(normal * self.radius, normal, error, to_world, to_object)
+    }
+}
+
 /// A hit on the ball.
 #[derive(Clone, Copy, Debug, Attributes)]
 pub struct BallHit {
@@ -24,7 +33,7 @@ pub struct BallHit {
 /// Intersects the ball, with the discriminant from the distance of centre and ray, which does not cancel (Haines et al. 2019,
 /// "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, chapter 7).
 #[intersection]
-pub fn ball(isect: &Intersection<PathTracer, BallHit>, record: &Ball) {
+pub fn ball<P: Pipeline>(isect: &Intersection<P, BallHit>, record: &Ball) {
     let (o, d) = (isect.object_ray_origin(), isect.object_ray_direction());
     let radius = record.radius;
     let dd = d.length_squared();
@@ -52,11 +61,7 @@ pub fn mirror(
     record: &Ball,
     ray: RadianceAtClosestHit,
 ) -> RadianceFromClosestHit {
-    let normal = hit.attributes().normal;
-    let object = normal * record.radius;
-    // The intersection squares distances up to the radius: its roundings move the surface by some ulp of the radius.
-    let error = Vec3::splat(record.radius * gamma(16));
-    let point = SurfacePoint::of_object(object, normal, error, &hit.object_to_world(), &hit.world_to_object());
+    let point = record.surface_point(hit.attributes().normal, &hit.object_to_world(), &hit.world_to_object());
     let incoming = hit.world_ray_direction();
     let direction = incoming - point.normal * (2.0 * incoming.dot(point.normal));
     RadianceFromClosestHit {

@@ -6,19 +6,17 @@
 //! trace call is a payload field with a writer and a reader.
 #![no_std]
 
-mod ball;
+pub mod ball;
 mod camera;
 mod leaf;
 mod light;
 mod surface;
 
-pub use ball::{Ball, BallHit};
+pub use ball::Ball;
 pub use camera::Pinhole;
 pub use leaf::Leaf;
 pub use light::{AreaLight, Emitter};
-#[cfg(not(target_arch = "nvptx64"))]
-pub use surface::SmoothHost;
-pub use surface::{Lambert, Smooth};
+pub use surface::{Lambert, Smooth, SmoothHost};
 
 use optix_device_rs::prelude::*;
 

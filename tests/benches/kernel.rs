@@ -1,12 +1,8 @@
 //! Rates of the CPU kernel in rays per second, against Embree 3 (single-ray, robust) where its library is installed.
 //!
-//! `cargo bench -p optix-host --bench kernel [-- FILTER]`. Both trace the same rays in the same run, in turns of a
+//! `cargo bench -p optix-tests --bench kernel [-- FILTER]`. Both trace the same rays in the same run, in turns of a
 //! millisecond. Printed are rates from each turn's least time over all repeats, their ratio, and the median and range of
 //! each repeat's ratio. `MESH=file.obj` adds a mesh.
-
-#[allow(dead_code, unused_imports, reason = "the executor uses more of the kernel than this bench")]
-#[path = "../src/cpu/kernel/mod.rs"]
-mod kernel;
 
 #[path = "kernel/embree.rs"]
 mod embree;
@@ -16,7 +12,7 @@ mod scene;
 use std::hint::black_box;
 use std::time::Instant;
 
-use kernel::{
+use optix_host::cpu::kernel::{
     Accel, AnyHit, Candidate, Gas, GeometryFlags, Portable, Programs, RayQuery, Reporter, SbtMapping, Site,
     TriangleInput, ray_flags, trace, trace_with,
 };
