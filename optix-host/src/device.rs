@@ -21,6 +21,7 @@ use std::sync::Arc;
 pub struct Device {
     pub(crate) backend: Arc<dyn Backend>,
     kind: BackendKind,
+    name: Arc<str>,
     description: Arc<str>,
 }
 
@@ -42,7 +43,7 @@ impl Device {
                 let cpu = Self::cpu()?;
                 let why = why.to_string();
                 let why = why.lines().next().unwrap_or_default();
-                let description = format!("{}; {why}", cpu.description).into();
+                let description = format!("{}; {why}", cpu.name).into();
                 Ok(Self { description, ..cpu })
             }
         }
@@ -51,8 +52,8 @@ impl Device {
     /// The CPU, on all cores (rayon's global pool).
     pub fn cpu() -> Result<Self> {
         let backend = CpuBackend::new();
-        let description = backend.description().into();
-        Ok(Self { backend: Arc::new(backend), kind: BackendKind::Cpu, description })
+        let name: Arc<str> = backend.description().into();
+        Ok(Self { backend: Arc::new(backend), kind: BackendKind::Cpu, description: name.clone(), name })
     }
 
     /// The first GPU, through OptiX.
@@ -63,13 +64,18 @@ impl Device {
     /// The first GPU, through OptiX, with options.
     pub fn optix_with(options: &OptixOptions) -> Result<Self> {
         let backend = OptixBackend::new(options)?;
-        let description = backend.description().into();
-        Ok(Self { backend: Arc::new(backend), kind: BackendKind::Optix, description })
+        let name: Arc<str> = backend.description().into();
+        Ok(Self { backend: Arc::new(backend), kind: BackendKind::Optix, description: name.clone(), name })
     }
 
     /// Which kind of machine it is.
     pub fn kind(&self) -> BackendKind {
         self.kind
+    }
+
+    /// The machine in a line.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// The machine in a line, and for [`Device::best`] why it was chosen.

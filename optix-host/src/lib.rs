@@ -27,7 +27,7 @@ pub use scene::{Aabb, Accel, Boxes, Geometry, Instance, Material, Scene, Triangl
 /// The PTX of a shader crate that the build script compiled with `optix_toolchain::shaders`; the crate is named as in
 /// Rust paths. Empty where no device compiler was found.
 ///
-/// ```ignore
+/// ```text
 /// let ptx = optix_host::ptx!(path_tracer_shaders);
 /// ```
 #[macro_export]

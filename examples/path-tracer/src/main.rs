@@ -79,7 +79,7 @@ fn run(args: &Args) -> Result<(), Box<dyn Error>> {
 
     let image = Image { width, height, pixels: render.moments().mean_image() };
     image.write(&args.out, 0.0)?;
-    let title = format!("{width}x{height}, {}", device.description());
+    let title = format!("{width}x{height}, {}", device.name());
     for (path, format) in &checked.reports {
         match format {
             ReportFormat::Csv => write_beside(path, |file| curve.write_csv(file))?,
@@ -87,7 +87,7 @@ fn run(args: &Args) -> Result<(), Box<dyn Error>> {
         }
     }
     let summary = Summary {
-        device: device.description().into(),
+        device: device.name().into(),
         size: (width, height),
         seconds,
         samples: render.samples(),
