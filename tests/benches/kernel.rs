@@ -2,7 +2,7 @@
 //!
 //! `cargo bench -p optix-tests --bench kernel [-- FILTER]`. Both trace the same rays in the same run, in turns of a
 //! millisecond. Printed are rates from each turn's least time over all repeats, their ratio, and the median and range of
-//! each repeat's ratio. `MESH=file.obj` adds a mesh.
+//! each repeat's ratio. The meshes are generated and, where it is there, the Stanford bunny.
 
 #[path = "kernel/embree.rs"]
 mod embree;
@@ -16,6 +16,7 @@ use optix_host::cpu::kernel::{
     Accel, AnyHit, Candidate, Gas, GeometryFlags, Portable, Programs, RayQuery, Reporter, SbtMapping, Site,
     TriangleInput, ray_flags, trace, trace_with,
 };
+use optix_tests::meshes;
 use rayon::prelude::*;
 use scene::{Mesh, Rays};
 
@@ -42,9 +43,7 @@ fn main() {
         Err(why) => println!("Embree 3 was not there ({why}); rates stand alone"),
     }
     let mut meshes = vec![scene::bumpy_sphere(187, 187)];
-    for file in std::env::var("MESH").ok().into_iter().chain(["/work/shared/data/stanford-bunny.obj".into()]) {
-        meshes.extend(scene::load_obj(&file));
-    }
+    meshes.extend(meshes::real().into_iter().filter(|mesh| mesh.name == "stanford-bunny").map(Mesh::from));
     for mesh in meshes {
         let begin = Instant::now();
         let accel = build(&mesh);

@@ -6,8 +6,8 @@ use std::ptr;
 
 use libloading::Library;
 
-use crate::kernel::RayQuery;
 use crate::scene::Mesh;
+use optix_host::cpu::kernel::RayQuery;
 
 type Handle = *mut c_void;
 

@@ -1,6 +1,7 @@
 //! Meshes and rays of the bench.
 
-use crate::kernel::RayQuery;
+use optix_host::cpu::kernel::RayQuery;
+use optix_tests::meshes::Model;
 
 pub struct Mesh {
     pub name: String,
@@ -41,25 +42,11 @@ pub fn bumpy_sphere(rings: u32, segments: u32) -> Mesh {
     Mesh { name: "rippled sphere".into(), vertices, indices }
 }
 
-/// The triangles of a Wavefront file, or nothing if it can't be read.
-pub fn load_obj(file: &str) -> Option<Mesh> {
-    let text = std::fs::read_to_string(file).ok()?;
-    let (mut vertices, mut indices) = (Vec::new(), Vec::new());
-    for line in text.lines() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            Some("v") => {
-                vertices.push(std::array::from_fn(|_| words.next().and_then(|w| w.parse().ok()).unwrap_or(0.0)))
-            }
-            Some("f") => {
-                let corners: Vec<u32> =
-                    words.filter_map(|w| w.split('/').next()?.parse::<u32>().ok()).map(|i| i - 1).collect();
-                indices.extend((2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]]));
-            }
-            _ => {}
-        }
+impl From<Model> for Mesh {
+    fn from(model: Model) -> Self {
+        let vertices = model.positions.iter().map(|p| p.to_array()).collect();
+        Self { name: model.name, vertices, indices: model.indices }
     }
-    Some(Mesh { name: file.into(), vertices, indices })
 }
 
 /// A small generator (Steele, Lea and Flood, SplitMix64).

@@ -254,7 +254,7 @@ fn nothing_escapes_a_closed_mesh() {
     let total: usize = std::env::var("KERNEL_WATERTIGHT_RAYS").ok().and_then(|n| n.parse().ok()).unwrap_or(1_000_000);
     let mut meshes = vec![("icosphere".to_string(), icosphere(6)), ("UV sphere".to_string(), uv_sphere(180, 280))];
     for name in ["fandisk", "rocker-arm", "stanford-bunny", "suzanne"] {
-        match load(&format!("/work/shared/data/{name}.obj")) {
+        match load(&format!("{}/../../shared/data/{name}.obj", env!("CARGO_MANIFEST_DIR"))) {
             Some(mesh) => meshes.push((name.to_string(), mesh)),
             None => println!("{name}: no file, or no closed surface"),
         }
