@@ -2,8 +2,13 @@
 //!
 //! Not for users; the macros refer to these by path.
 
+use crate::attributes::{Attributes, Triangles};
 use crate::payload::{Part, Payload};
-use crate::ray::{Ray, Traversable};
+use crate::program::{Face, Transform};
+use crate::ray::{Ray, RayFlags, Traversable};
+use crate::spawn::SurfacePoint;
+use core::fmt::Debug;
+use glam::{Vec2, Vec3};
 
 // ---- Payload parts -------------------------------------------------------------------------------------------------
 
@@ -60,7 +65,60 @@ impl MayReturnNothing for () {
     fn nothing() -> Self {}
 }
 
-// ---- Programs ------------------------------------------------------------------------------------------------------
+/// A field as `Debug` shows it: fields of a payload need not have `Debug`. Method lookup prefers [`ShowValue`], which
+/// takes one `&` less, where there is one.
+pub struct Show<'a, T>(pub &'a T);
+
+/// With `Debug`.
+pub trait ShowValue {
+    /// The value.
+    fn shown(&self) -> &dyn Debug;
+}
+impl<T: Debug> ShowValue for &Show<'_, T> {
+    fn shown(&self) -> &dyn Debug {
+        self.0
+    }
+}
+
+/// Without.
+pub trait ShowName {
+    /// In the value's place.
+    fn shown(&self) -> &dyn Debug;
+}
+impl<T> ShowName for Show<'_, T> {
+    fn shown(&self) -> &dyn Debug {
+        struct NotShown;
+        impl Debug for NotShown {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                f.write_str("..")
+            }
+        }
+        &NotShown
+    }
+}
+
+// ---- Device functions ----------------------------------------------------------------------------------------------
+
+/// Device functions where they are not allowed: each exists for the message it fails with, which says where it belongs.
+/// The table of legal calls is guide 13; `tests/macros/device_functions.tsv` lists what the contexts have of it.
+macro_rules! not_allowed {
+    ($allowed:ident: $($context:ident<P $(, $a:ident)?>),+; $body:tt) => {
+        $(not_allowed! { @context $allowed, $context<P $(, $a)?>, $body })+
+    };
+    (@context $allowed:ident, $context:ident<P $(, $a:ident)?>, { $($name:ident($($argument:ty),*) -> $result:ty;)* }) => {
+        impl<P $(, $a)?> crate::program::$context<P $(, $a)?> {
+            $(
+                #[doc(hidden)]
+                pub fn $name(&self, $(_: $argument),*) -> $result
+                where
+                    Self: $allowed,
+                {
+                    unreachable!()
+                }
+            )*
+        }
+    };
+}
 
 /// The context of a program that may trace rays.
 #[diagnostic::on_unimplemented(
@@ -73,7 +131,6 @@ pub trait MayTrace {}
 macro_rules! may_not_trace {
     ($($context:ident)*) => {$(
         impl<P, A> crate::program::$context<P, A> {
-            /// Not allowed here; it exists for the message.
             #[doc(hidden)]
             pub fn trace<R: Payload>(&self, _: Traversable, _: Ray, _: R::FromCaller) -> R::AtCaller
             where
@@ -85,6 +142,128 @@ macro_rules! may_not_trace {
     )*};
 }
 may_not_trace!(AnyHit Intersection);
+
+/// The context of a program that runs for a ray.
+#[diagnostic::on_unimplemented(
+    message = "no ray is on its way in `{Self}`",
+    label = "only intersection, any-hit, closest-hit and miss programs ask about their ray (guide 13.5)",
+    note = "a ray-generation program makes its rays itself: use the `Ray` that it passes to `trace`"
+)]
+pub trait HasRay {}
+not_allowed! { HasRay: RayGen<P>; {
+    world_ray_origin() -> Vec3;
+    world_ray_direction() -> Vec3;
+    ray_tmin() -> f32;
+    ray_tmax() -> f32;
+    ray_time() -> f32;
+    ray_flags() -> RayFlags;
+    ray_visibility_mask() -> u8;
+} }
+
+/// The context of a program that runs for a primitive.
+#[diagnostic::on_unimplemented(
+    message = "there is no primitive in `{Self}`",
+    label = "only intersection, any-hit and closest-hit programs ask about a primitive and its instance (guide 13.7, 13.11)",
+    note = "what the caller of `trace` needs to know about a hit, the closest-hit program returns in the payload"
+)]
+pub trait HasPrimitive {}
+not_allowed! { HasPrimitive: RayGen<P>, Miss<P>; {
+    primitive_index() -> u32;
+    sbt_gas_index() -> u32;
+    instance_id() -> Option<u32>;
+    instance_index() -> u32;
+    object_to_world() -> Transform;
+    world_to_object() -> Transform;
+} }
+
+/// The context of a program that has its ray in object space.
+#[diagnostic::on_unimplemented(
+    message = "the ray is not known in object space in `{Self}`",
+    label = "only intersection and any-hit programs have the ray in object space (guide 13.5)",
+    note = "in a closest-hit program map it: `hit.world_to_object().point(hit.world_ray_origin())`, `.vector(..)` for the direction"
+)]
+pub trait HasObjectRay {}
+not_allowed! { HasObjectRay: RayGen<P>, ClosestHit<P, A>, Miss<P>; {
+    object_ray_origin() -> Vec3;
+    object_ray_direction() -> Vec3;
+} }
+
+/// The context of a program that runs for a hit.
+#[diagnostic::on_unimplemented(
+    message = "there is no hit in `{Self}`",
+    label = "only any-hit and closest-hit programs ask about a hit, its kind and its attributes (guide 13.4, 13.7, 13.9)",
+    note = "an intersection program says what a hit carries: `isect.report(t, kind, attributes)`; the caller of `trace` learns of a hit through the payload"
+)]
+pub trait HasHit {}
+not_allowed! { HasHit: RayGen<P>, Intersection<P, A>, Miss<P>; {
+    attributes() -> ();
+    hit_kind() -> u8;
+    barycentrics() -> Vec2;
+    face() -> Face;
+    vertices() -> [Vec3; 3];
+    surface_point() -> SurfacePoint;
+} }
+
+/// The context of a program that may report hits.
+#[diagnostic::on_unimplemented(
+    message = "hits can't be reported from `{Self}`",
+    label = "only intersection programs report hits (guide 13.4)",
+    note = "write an `#[intersection]` program for the material, and put the material on `Custom` geometry"
+)]
+pub trait MayReport {}
+
+macro_rules! may_not_report {
+    ($($context:ident<P $(, $a:ident)?>),*) => {$(
+        impl<P $(, $a)?> crate::program::$context<P $(, $a)?> {
+            #[doc(hidden)]
+            pub fn report<T: Attributes>(&self, _: f32, _: u8, _: T) -> bool
+            where
+                Self: MayReport,
+            {
+                unreachable!()
+            }
+        }
+    )*};
+}
+may_not_report!(RayGen<P>, AnyHit<P, A>, ClosestHit<P, A>, Miss<P>);
+
+/// The context of a program that ends by a call, of which there is none.
+#[diagnostic::on_unimplemented(
+    message = "what happens to a hit is not decided by a call",
+    label = "an any-hit program returns its decision: `Decision::Ignore`, `Decision::Terminate` or `Decision::Accept`",
+    note = "so what it writes to the payload counts, whatever it decides (guide 13.13)"
+)]
+pub trait DecidesByCall {}
+not_allowed! { DecidesByCall: AnyHit<P, A>, Intersection<P, A>, ClosestHit<P, A>, Miss<P>, RayGen<P>; {
+    ignore_intersection() -> ();
+    terminate_ray() -> ();
+} }
+
+/// A view that programs write through.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is read-only",
+    label = "programs only read this view",
+    note = "declare the field as `SliceMut<..>`; its host twin is the same"
+)]
+pub trait Writable {}
+impl<T> crate::view::Slice<T> {
+    #[doc(hidden)]
+    pub fn set(self, _: u32, _: T)
+    where
+        Self: Writable,
+    {
+        unreachable!()
+    }
+}
+
+/// Hits on triangles.
+#[diagnostic::on_unimplemented(
+    message = "hits that carry `{Self}` are not hits on triangles",
+    label = "only hits on triangles have barycentrics, a face, vertices and a surface point (guide 13.4, 13.9)",
+    note = "read what the intersection program reported: `hit.attributes()`; in a program for any kind of hit, ask for `Triangles` in its context"
+)]
+pub trait OnTriangles {}
+impl OnTriangles for Triangles {}
 
 // ---- Pipelines -----------------------------------------------------------------------------------------------------
 
@@ -200,6 +379,19 @@ pub const fn record_align(name: &str, align: usize) {
             .push("` is aligned to ")
             .number(align)
             .push(" bytes, but OptiX aligns records to 16: lower its `align(..)`");
+        panic!("{}", text.as_str());
+    }
+}
+
+/// A bound value has at least one byte (guide 6.5.1).
+pub const fn bound_field(name: &str, field: &str, size: usize) {
+    if size == 0 {
+        let text = EMPTY
+            .push("launch parameter `")
+            .push(field)
+            .push("` of `")
+            .push(name)
+            .push("` has no bytes to bind: take its `#[bound]` away");
         panic!("{}", text.as_str());
     }
 }

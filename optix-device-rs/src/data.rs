@@ -20,6 +20,11 @@ use glam::{Affine3A, IVec2, IVec3, IVec4, Mat3, Mat4, Quat, UVec2, UVec3, UVec4,
 pub unsafe trait DeviceData: Copy + 'static {
     /// Writes the value's bytes to `bytes`, which is `size_of::<Self>()` long and zero: padding stays zero.
     fn write_to(&self, bytes: &mut [u8]);
+
+    /// Bytes that a program loads at a time where the value is a launch parameter: 1, 2, 4 or 8. Eight only for 64-bit
+    /// numbers, so that neither they are put together from halves nor vectors of `f32` taken apart.
+    #[doc(hidden)]
+    const UNIT: usize = if align_of::<Self>() < 4 { align_of::<Self>() } else { 4 };
 }
 
 macro_rules! primitive {
@@ -30,6 +35,7 @@ macro_rules! primitive {
             fn write_to(&self, bytes: &mut [u8]) {
                 bytes.copy_from_slice(&self.to_le_bytes());
             }
+            const UNIT: usize = size_of::<Self>();
         }
     )*};
 }
@@ -56,6 +62,7 @@ unsafe impl<T: DeviceData, const N: usize> DeviceData for [T; N] {
             value.write_to(bytes);
         }
     }
+    const UNIT: usize = T::UNIT;
 }
 
 macro_rules! glam_type {
@@ -107,6 +114,7 @@ macro_rules! view {
             fn write_to(&self, bytes: &mut [u8]) {
                 self.to_raw().write_to(bytes);
             }
+            const UNIT: usize = u64::UNIT;
         }
     )*};
 }
@@ -119,6 +127,7 @@ unsafe impl DeviceData for Traversable {
     fn write_to(&self, bytes: &mut [u8]) {
         self.to_raw().write_to(bytes);
     }
+    const UNIT: usize = u64::UNIT;
 }
 
 /// Data in which no view of device memory is hidden: what a field of parameters or records may be without `#[view]`.

@@ -7,11 +7,14 @@ use crate::machine::ParamsBase;
 ///
 /// A program reads field by field through the generated view (`rg.params().world()`), which on the device is a load
 /// from constant memory at a fixed offset: the form that OptiX can replace by a constant (guide 6.5.1).
+///
+/// # Safety
+/// `SYMBOL` is declared with the struct's size, and `FIELDS` are the struct's.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a launch-parameter struct",
     label = "add `#[launch_params]` to the struct"
 )]
-pub trait LaunchParams: DeviceData + ParamsSymbol {
+pub unsafe trait LaunchParams: DeviceData + ParamsSymbol {
     /// The name, for messages.
     const NAME: &'static str;
     /// The name of the constant-memory variable in the PTX (`pipelineLaunchParamsVariableName`).
@@ -29,9 +32,15 @@ pub trait LaunchParams: DeviceData + ParamsSymbol {
 /// instruction. Made by `#[launch_params]`.
 #[doc(hidden)]
 pub trait ParamsSymbol {
+    /// The eight bytes at `OFFSET + 8 * INDEX`.
+    #[cfg(target_arch = "nvptx64")]
+    fn long<const OFFSET: usize, const INDEX: usize>() -> u64;
     /// The word at byte `OFFSET + 4 * INDEX`.
     #[cfg(target_arch = "nvptx64")]
     fn word<const OFFSET: usize, const INDEX: usize>() -> u32;
+    /// The two bytes at `OFFSET + 2 * INDEX`.
+    #[cfg(target_arch = "nvptx64")]
+    fn half<const OFFSET: usize, const INDEX: usize>() -> u16;
     /// The byte at `OFFSET + INDEX`.
     #[cfg(target_arch = "nvptx64")]
     fn byte<const OFFSET: usize, const INDEX: usize>() -> u8;
@@ -51,6 +60,33 @@ pub struct Field {
     pub size: usize,
     /// Whether the host may specialise it away (`#[bound]`).
     pub bound: bool,
+}
+
+/// A number that changes with the layout of a parameter struct: its size and alignment, and name, offset and size of each
+/// field (FNV-1a, 64 bits).
+///
+/// `#[launch_params]` puts it into the PTX as `SYMBOL_layout`, and the host compares it with its own when it builds a pipeline,
+/// so that PTX of another build can't be launched with this build's parameters.
+pub const fn layout_fingerprint(size: usize, align: usize, fields: &[Field]) -> u64 {
+    let mut hash = fnv(fnv(0xcbf2_9ce4_8422_2325, size as u64), align as u64);
+    let mut i = 0;
+    while i < fields.len() {
+        let Field { name, offset, size, .. } = fields[i];
+        let name = name.as_bytes();
+        let mut k = 0;
+        while k < name.len() {
+            hash = fnv(hash, name[k] as u64);
+            k += 1;
+        }
+        hash = fnv(fnv(hash, offset as u64), size as u64);
+        i += 1;
+    }
+    hash
+}
+
+/// A step of FNV-1a with a number in place of a byte.
+const fn fnv(hash: u64, value: u64) -> u64 {
+    (hash ^ value).wrapping_mul(0x0000_0100_0000_01b3)
 }
 
 /// A field that the host may bind to a constant when it builds the pipeline; `Frame::MAX_BOUNCES` for a field

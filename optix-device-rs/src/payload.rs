@@ -8,12 +8,15 @@
 use crate::words::WordBuffer;
 
 /// A payload type. Implemented by `#[derive(Payload)]` only.
+///
+/// # Safety
+/// There are at most 32 words, one entry of `SEMANTICS` each, and a part touches only words that its party may.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a payload",
     label = "not a payload type",
     note = "a ray type is named by its payload: a struct with `#[derive(Payload)]`"
 )]
-pub trait Payload: Sized + 'static {
+pub unsafe trait Payload: Sized + 'static {
     /// The name, for messages.
     const NAME: &'static str;
     /// Words in registers, 0 to 32.
@@ -44,7 +47,10 @@ pub trait Payload: Sized + 'static {
 }
 
 /// Some of the fields of a payload: those that one party reads or writes.
-pub trait Part: Copy {
+///
+/// # Safety
+/// `load` and `store` touch the words of `MASK` and no others.
+pub unsafe trait Part: Copy {
     /// Bit `i` is set if the part holds payload word `i`.
     const MASK: u32;
     /// Takes the part's fields out of the payload's words.
@@ -53,8 +59,8 @@ pub trait Part: Copy {
     fn store(self, words: &mut WordBuffer);
 }
 
-/// The party has no field.
-impl Part for () {
+// SAFETY: no words.
+unsafe impl Part for () {
     const MASK: u32 = 0;
     #[inline(always)]
     fn load(_: &WordBuffer) {}

@@ -6,11 +6,15 @@ use crate::payload::Payload;
 use crate::record::SbtRecord;
 
 /// A pipeline: launch parameters, ray types, hit groups and programs under one name. Made by `pipeline!`.
+///
+/// # Safety
+/// The description's entries run as what it lists them for, with the records and payloads it names; a host launches
+/// whatever it says.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a pipeline",
     label = "expected a type that `pipeline!` declares"
 )]
-pub trait Pipeline: Sized + 'static {
+pub unsafe trait Pipeline: Sized + 'static {
     /// The launch parameters.
     type Params: LaunchParams;
     /// How many ray types there are: the SBT stride of every trace call.
@@ -21,12 +25,15 @@ pub trait Pipeline: Sized + 'static {
 }
 
 /// The pipeline traces rays of type `R`; a ray type is named by its payload.
+///
+/// # Safety
+/// The number is that of the ray type in the pipeline's description: a trace call with another reads foreign records.
 #[diagnostic::on_unimplemented(
     message = "pipeline `{Self}` has no ray type `{R}`",
     label = "`{R}` is not among the `rays` of `{Self}`",
     note = "add `{R} {{ miss: .. }}` to `rays` in `pipeline!`, or bound a generic program by `P: HasRay<{R}>`"
 )]
-pub trait HasRay<R: Payload>: Pipeline {
+pub unsafe trait HasRay<R: Payload>: Pipeline {
     /// The ray type's number: SBT offset of its hit-group records and index of its miss record.
     const INDEX: u32;
     /// `OptixPayloadTypeID` of its payload in the pipeline's modules.
@@ -36,21 +43,27 @@ pub trait HasRay<R: Payload>: Pipeline {
 }
 
 /// The pipeline has a hit group for material `Rec` on geometry `G`; a material is named by its record.
+///
+/// # Safety
+/// The number is that of the hit group in the pipeline's description, whose record is `Rec`.
 #[diagnostic::on_unimplemented(
     message = "pipeline `{Self}` has no hit group for material `{Rec}` on `{G}`",
     label = "`{Rec} on {G}` is not among the `hitgroups` of `{Self}`"
 )]
-pub trait HasHitGroup<Rec: SbtRecord, G: Geometry>: Pipeline {
+pub unsafe trait HasHitGroup<Rec: SbtRecord, G: Geometry>: Pipeline {
     /// The hit group's number in the pipeline's description.
     const INDEX: u32;
 }
 
 /// The pipeline has the ray-generation program that type `Prog` stands for.
+///
+/// # Safety
+/// The number is that of the program in the pipeline's description, whose record is `Record`.
 #[diagnostic::on_unimplemented(
     message = "`{Prog}` is not a ray-generation program of pipeline `{Self}`",
     label = "not among the `raygen` programs of `{Self}`"
 )]
-pub trait HasRayGen<Prog>: Pipeline {
+pub unsafe trait HasRayGen<Prog>: Pipeline {
     /// The program's number in the pipeline's description.
     const INDEX: u32;
     /// Its record.

@@ -33,7 +33,7 @@ pub fn device_data(model: &Struct) -> TokenStream {
             quote_spanned!(span=> <#ty as #krate::data::Plain>::write_plain)
         };
         quote! {{
-            const __AT: usize = ::core::mem::offset_of!(#ident, #member);
+            const __AT: ::core::primitive::usize = ::core::mem::offset_of!(#ident, #member);
             let __field = self.#member;
             #write(&__field, &mut __bytes[__AT..__AT + ::core::mem::size_of::<#ty>()]);
         }}
@@ -46,7 +46,7 @@ pub fn device_data(model: &Struct) -> TokenStream {
             #[automatically_derived]
             unsafe impl #krate::data::DeviceData for #ident #copy {
                 #[inline]
-                fn write_to(&self, __bytes: &mut [u8]) {
+                fn write_to(&self, __bytes: &mut [::core::primitive::u8]) {
                     #(#writes)*
                 }
             }
@@ -168,6 +168,11 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
         #vis struct #host {
             #(#fields,)*
         }
+        // So that a crate may name the twin without asking which machine it is compiled for.
+        #[doc(hidden)]
+        #[cfg(target_arch = "nvptx64")]
+        #[allow(missing_docs, unreachable_pub, dead_code)]
+        #vis enum #host {}
         #[cfg(not(target_arch = "nvptx64"))]
         #allow
         const _: () = {

@@ -21,7 +21,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
         let krate = moved(krate, span);
         let write = quote_spanned!(span=> <#ty as #krate::view::Element>::write_element);
         quote! {{
-            const __AT: usize = ::core::mem::offset_of!(#ident, #member);
+            const __AT: ::core::primitive::usize = ::core::mem::offset_of!(#ident, #member);
             let __field = self.#member;
             #write(&__field, &mut __bytes[__AT..__AT + ::core::mem::size_of::<#ty>()]);
         }}
@@ -50,7 +50,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
             #[automatically_derived]
             unsafe impl #krate::data::DeviceData for #ident {
                 #[inline]
-                fn write_to(&self, __bytes: &mut [u8]) {
+                fn write_to(&self, __bytes: &mut [::core::primitive::u8]) {
                     #(#writes)*
                 }
             }

@@ -10,6 +10,8 @@
 
 mod data;
 mod element;
+#[cfg(test)]
+mod fuzz;
 mod params;
 mod payload;
 mod pipeline;
@@ -20,7 +22,6 @@ mod support;
 mod words;
 
 use proc_macro::TokenStream;
-use syn::{DeriveInput, parse_macro_input};
 
 /// Makes a struct a ray payload: who reads and who writes each field is declared once and proved at the declaration.
 ///
@@ -64,7 +65,7 @@ use syn::{DeriveInput, parse_macro_input};
 /// words at most (guide 14).
 #[proc_macro_derive(Payload, attributes(payload, optix))]
 pub fn derive_payload(input: TokenStream) -> TokenStream {
-    payload::derive(&parse_macro_input!(input as DeriveInput)).into()
+    support::derive(input.into(), payload::derive).into()
 }
 
 /// Makes a struct the data of a shader-binding-table record: a material, a light, a sky.
@@ -95,7 +96,7 @@ pub fn derive_payload(input: TokenStream) -> TokenStream {
 /// without is its own.
 #[proc_macro_derive(SbtRecord, attributes(view, optix))]
 pub fn derive_sbt_record(input: TokenStream) -> TokenStream {
-    record::derive(&parse_macro_input!(input as DeriveInput)).into()
+    support::derive(input.into(), record::derive).into()
 }
 
 /// Lets a struct cross from host to device: as a field of parameters, of records, and of other such structs.
@@ -128,7 +129,7 @@ pub fn derive_sbt_record(input: TokenStream) -> TokenStream {
 /// The struct has `#[repr(C)]` and is `Clone` and `Copy`. Padding is written as zeros.
 #[proc_macro_derive(DeviceData, attributes(view, optix))]
 pub fn derive_device_data(input: TokenStream) -> TokenStream {
-    data::derive(&parse_macro_input!(input as DeriveInput)).into()
+    support::derive(input.into(), data::derive).into()
 }
 
 /// Lets a struct be an element of a device buffer: `Slice<Vertex>`, `SliceMut<Vertex>`.
@@ -151,7 +152,7 @@ pub fn derive_device_data(input: TokenStream) -> TokenStream {
 /// `bool`, since any bytes must be a valid value. The derive includes [`DeviceData`](macro@DeviceData).
 #[proc_macro_derive(Element, attributes(optix))]
 pub fn derive_element(input: TokenStream) -> TokenStream {
-    element::derive(&parse_macro_input!(input as DeriveInput)).into()
+    support::derive(input.into(), element::derive).into()
 }
 
 /// Lets a struct travel in payload and attribute registers, field after field.
@@ -168,7 +169,7 @@ pub fn derive_element(input: TokenStream) -> TokenStream {
 /// ```
 #[proc_macro_derive(Words, attributes(optix))]
 pub fn derive_words(input: TokenStream) -> TokenStream {
-    words::derive_words(&parse_macro_input!(input as DeriveInput)).into()
+    support::derive(input.into(), words::derive_words).into()
 }
 
 /// Makes a struct what a custom primitive's hits carry: what `report` takes and `attributes()` returns.
@@ -186,7 +187,7 @@ pub fn derive_words(input: TokenStream) -> TokenStream {
 /// The fields take 8 words at most (guide 13.4; asserted when the struct is compiled).
 #[proc_macro_derive(Attributes, attributes(optix))]
 pub fn derive_attributes(input: TokenStream) -> TokenStream {
-    words::derive_attributes(&parse_macro_input!(input as DeriveInput)).into()
+    support::derive(input.into(), words::derive_attributes).into()
 }
 
 /// Makes a struct the launch parameters: what every program of a launch sees.

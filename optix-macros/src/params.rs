@@ -2,9 +2,9 @@
 
 use crate::data::{device_data, docs_or, twin};
 use crate::shape::{Field, Repr, Struct};
-use crate::support::{Errors, allow, crate_argument, name, place};
+use crate::support::{Errors, allow, cfg_of, crate_argument, moved, name, place, place_of};
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::{format_ident, quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{DeriveInput, Ident, Item, ItemStruct, Member};
 
@@ -82,6 +82,16 @@ fn check(model: &Struct, errors: &mut Errors) {
         errors.at(packed, "launch parameters can't be packed: programs load each field at its own alignment");
     }
     for field in &model.fields {
+        if let Some(cfg) = cfg_of(&field.attrs) {
+            errors.at(
+                cfg,
+                format!(
+                    "launch parameter `{}` can't be `#[cfg(..)]`: host and device must see the same fields; write two \
+                     structs, each with `#[cfg(..)]` above its `#[launch_params]`",
+                    field.name()
+                ),
+            );
+        }
         if field.bound.is_some() && field.view {
             errors.at(
                 &field.ty,
@@ -117,6 +127,7 @@ fn field_value(model: &Struct, field: &Field) -> TokenStream {
 /// `Frame::MAX_BOUNCES` for `#[bound] max_bounces`.
 fn bounds(model: &Struct) -> TokenStream {
     let (krate, ident, allow) = (&model.krate, &model.ident, allow());
+    let mut checks = TokenStream::new();
     let consts: Vec<_> = model
         .fields
         .iter()
@@ -126,6 +137,13 @@ fn bounds(model: &Struct) -> TokenStream {
             let name = format_ident!("{}", name(ident_of(field)?).to_uppercase(), span = field.member.span());
             let doc = format!("Field `{}`, to bind to a constant when the pipeline is built.", field.name());
             let value = field_value(model, field);
+            let (name_there, field_name) = (model.name(), field.name());
+            let span = place_of(ty);
+            let there = moved(krate, span);
+            let check = quote_spanned!(span=> #there::check::bound_field);
+            checks.extend(quote_spanned! {span=>
+                const _: () = #check(#name_there, #field_name, ::core::mem::size_of::<#ty>());
+            });
             Some(quote! {
                 #[doc = #doc]
                 #vis const #name: #krate::params::Bound<#ident, #ty> = #krate::params::Bound::new(#value);
@@ -141,6 +159,7 @@ fn bounds(model: &Struct) -> TokenStream {
         impl #ident {
             #(#consts)*
         }
+        #checks
     }
 }
 
@@ -204,18 +223,44 @@ fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
     let (krate, ident, allow, name) = (&model.krate, &model.ident, allow(), model.name());
     let view = format_ident!("{}View", name, span = ident.span());
     let symbol = format!("optix_params_{name}_{}", place(ident.span(), &name));
-    let declare = format!(".visible .const .align {{a}} .b8 {symbol}[{{n}}];");
-    let (word, byte) =
-        (format!("ld.const.b32 {{v}}, [{symbol}+{{at}}];"), format!("ld.const.u8 {{v}}, [{symbol}+{{at}}];"));
+    let declare = format!(
+        ".visible .const .align {{a}} .b8 {symbol}[{{n}}];\n.visible .global .align 8 .b64 {symbol}_layout = {{layout}};"
+    );
+    let loads = [("long", "b64", "u64", 8usize), ("word", "b32", "u32", 4), ("half", "u16", "u16", 2), ("byte", "u8", "u8", 1)];
+    let loads = loads.map(|(function, load, ty, unit)| {
+        let load = format!("ld.const.{load} {{v}}, [{symbol}+{{at}}];");
+        let (function, ty) = (format_ident!("{function}"), format_ident!("{ty}"));
+        // PTX has no registers of 8 bits, and those of 16 are no class of inline assembly's operands here.
+        let (class, register) = if unit == 8 { ("reg64", "u64") } else { ("reg32", "u32") };
+        let (class, register) = (format_ident!("{class}"), format_ident!("{register}"));
+        quote! {
+            #[cfg(target_arch = "nvptx64")]
+            #[inline(always)]
+            fn #function<const OFFSET: ::core::primitive::usize, const INDEX: ::core::primitive::usize>() -> ::core::primitive::#ty {
+                let __value: ::core::primitive::#register;
+                // SAFETY: reads from the symbol, which does not change while programs run.
+                unsafe {
+                    ::core::arch::asm!(
+                        #load,
+                        v = out(#class) __value,
+                        at = const OFFSET + #unit * INDEX,
+                        options(pure, nomem, nostack, preserves_flags),
+                    )
+                };
+                __value as ::core::primitive::#ty
+            }
+        }
+    });
     let address = format!("{{{{ .reg .b64 a; mov.b64 a, {symbol}; cvta.const.u64 {{v}}, a; }}}}");
     let fields = model.fields.iter().map(|field| field_value(model, field));
     quote! {
         #allow
         const _: () = {
+            // SAFETY: symbol and fields are made from the struct.
             #[automatically_derived]
-            impl #krate::params::LaunchParams for #ident {
-                const NAME: &'static str = #name;
-                const SYMBOL: &'static str = #symbol;
+            unsafe impl #krate::params::LaunchParams for #ident {
+                const NAME: &'static ::core::primitive::str = #name;
+                const SYMBOL: &'static ::core::primitive::str = #symbol;
                 const FIELDS: &'static [#krate::params::Field] = &[#(#fields),*];
                 type View<'a> = #view<'a>;
                 #[cfg(not(target_arch = "nvptx64"))]
@@ -224,42 +269,12 @@ fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
 
             #[automatically_derived]
             impl #krate::params::ParamsSymbol for #ident {
-                #[cfg(target_arch = "nvptx64")]
-                #[inline(always)]
-                fn word<const OFFSET: usize, const INDEX: usize>() -> u32 {
-                    let __value: u32;
-                    // SAFETY: reads a word of the symbol, which does not change while programs run.
-                    unsafe {
-                        ::core::arch::asm!(
-                            #word,
-                            v = out(reg32) __value,
-                            at = const OFFSET + 4 * INDEX,
-                            options(pure, nomem, nostack, preserves_flags),
-                        )
-                    };
-                    __value
-                }
+                #(#loads)*
 
                 #[cfg(target_arch = "nvptx64")]
                 #[inline(always)]
-                fn byte<const OFFSET: usize, const INDEX: usize>() -> u8 {
-                    let __value: u32;
-                    // SAFETY: reads a byte of the symbol, which does not change while programs run.
-                    unsafe {
-                        ::core::arch::asm!(
-                            #byte,
-                            v = out(reg32) __value,
-                            at = const OFFSET + INDEX,
-                            options(pure, nomem, nostack, preserves_flags),
-                        )
-                    };
-                    __value as u8
-                }
-
-                #[cfg(target_arch = "nvptx64")]
-                #[inline(always)]
-                fn address() -> *const u8 {
-                    let __value: u64;
+                fn address() -> *const ::core::primitive::u8 {
+                    let __value: ::core::primitive::u64;
                     // SAFETY: takes the symbol's address.
                     unsafe {
                         ::core::arch::asm!(
@@ -268,7 +283,7 @@ fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
                             options(pure, nomem, nostack, preserves_flags),
                         )
                     };
-                    __value as *const u8
+                    __value as *const ::core::primitive::u8
                 }
             }
         };
@@ -279,6 +294,11 @@ fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
             #declare,
             a = const ::core::mem::align_of::<#ident>(),
             n = const if ::core::mem::size_of::<#ident>() == 0 { 1 } else { ::core::mem::size_of::<#ident>() },
+            layout = const #krate::params::layout_fingerprint(
+                ::core::mem::size_of::<#ident>(),
+                ::core::mem::align_of::<#ident>(),
+                <#ident as #krate::params::LaunchParams>::FIELDS,
+            ),
         );
     }
 }

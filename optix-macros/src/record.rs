@@ -33,7 +33,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
             #align
             #[automatically_derived]
             impl #krate::record::SbtRecord for #ident #copy {
-                const NAME: &'static str = #name;
+                const NAME: &'static ::core::primitive::str = #name;
                 #[cfg(not(target_arch = "nvptx64"))]
                 type Host = #host;
             }

@@ -1,6 +1,6 @@
 //! Structs as the derives see them.
 
-use crate::support::{Errors, crate_of, name, ungroup};
+use crate::support::{Errors, crate_of, mentions, name, ungroup};
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, quote};
 use syn::spanned::Spanned;
@@ -105,6 +105,17 @@ impl Struct {
                 return None;
             }
         };
+        if let Some(field) = data.fields.iter().find(|f| mentions(f.ty.to_token_stream(), "Self")) {
+            errors.at(
+                &field.ty,
+                format!("write `{}` for `Self`: in the structs that are made of this one `Self` is another type", input.ident),
+            );
+            return None;
+        }
+        if let Some(field) = data.fields.iter().find(|f| matches!(ungroup(&f.ty), Type::TraitObject(_) | Type::ImplTrait(_))) {
+            errors.at(&field.ty, format!("{what} has fields of one size: this is no type of a value, but traits"));
+            return None;
+        }
         let fields = data.fields.iter().enumerate().map(|(i, field)| Field::parse(i, field, errors)).collect();
         Some(Self {
             attrs: input.attrs.clone(),

@@ -4,7 +4,7 @@ use proc_macro2::{Group, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
-use syn::{Attribute, Error, Ident, Path, Type};
+use syn::{Attribute, DeriveInput, Error, Ident, Path, Type};
 
 /// Errors of one expansion, all reported at once.
 #[derive(Default)]
@@ -40,6 +40,14 @@ impl Errors {
     }
 }
 
+/// A derive as a function from tokens to tokens.
+pub fn derive(input: TokenStream, make: fn(&DeriveInput) -> TokenStream) -> TokenStream {
+    match syn::parse2(input) {
+        Ok(input) => make(&input),
+        Err(error) => error.into_compile_error(),
+    }
+}
+
 /// The device crate's path, unless `crate = path` says otherwise.
 pub fn default_crate() -> Path {
     syn::parse_quote!(::optix_device_rs)
@@ -58,11 +66,19 @@ pub fn crate_argument(arguments: TokenStream, attribute: &str, errors: &mut Erro
         }
         input.parse::<syn::Token![crate]>()?;
         input.parse::<syn::Token![=]>()?;
-        let path = Path::parse_mod_style(input)?;
+        let path = crate_path(input)?;
         input.parse::<Option<syn::Token![,]>>()?;
         Ok(path)
     };
     errors.keep(syn::parse::Parser::parse2(parse, arguments)).unwrap_or_else(default_crate)
+}
+
+/// The path after `crate =`.
+pub fn crate_path(input: syn::parse::ParseStream<'_>) -> syn::Result<Path> {
+    if input.peek(syn::LitStr) {
+        return Err(input.error("expected a path, without quotes, such as `rt` or `crate::toolkit::rt`"));
+    }
+    Path::parse_mod_style(input)
 }
 
 /// Reads `#[optix(crate = path)]` of a derive.
@@ -71,7 +87,7 @@ pub fn crate_of(attributes: &[Attribute], errors: &mut Errors) -> Path {
     for attribute in attributes.iter().filter(|a| a.path().is_ident("optix")) {
         let result = attribute.parse_nested_meta(|meta| {
             if meta.path.is_ident("crate") {
-                path = Path::parse_mod_style(meta.value()?)?;
+                path = crate_path(meta.value()?)?;
                 Ok(())
             } else {
                 Err(meta.error("unknown option: expected `crate = path`"))
@@ -107,6 +123,11 @@ pub fn moved(tokens: &impl ToTokens, span: Span) -> TokenStream {
     at(tokens.to_token_stream(), span)
 }
 
+/// The `#[cfg(..)]` among `attributes`. rustc obeys those on an item before a macro sees it, those inside only after.
+pub fn cfg_of(attributes: &[Attribute]) -> Option<&Attribute> {
+    attributes.iter().find(|a| a.path().is_ident("cfg"))
+}
+
 /// The name without `r#`.
 pub fn name(ident: &Ident) -> String {
     ident.unraw().to_string()
@@ -115,6 +136,15 @@ pub fn name(ident: &Ident) -> String {
 /// The doc comments among `attributes`.
 pub fn docs(attributes: &[Attribute]) -> Vec<&Attribute> {
     attributes.iter().filter(|a| a.path().is_ident("doc")).collect()
+}
+
+/// Whether the word occurs.
+pub fn mentions(tokens: TokenStream, word: &str) -> bool {
+    tokens.into_iter().any(|token| match token {
+        TokenTree::Ident(ident) => ident == word,
+        TokenTree::Group(group) => mentions(group.stream(), word),
+        _ => false,
+    })
 }
 
 /// The type without the invisible groups that `macro_rules!` puts around a `$ty`.
@@ -132,7 +162,7 @@ pub fn ungroup(mut ty: &Type) -> &Type {
 pub fn allow() -> TokenStream {
     quote! {
         #[allow(
-            unsafe_code, dead_code, unused_qualifications, unreachable_pub, private_interfaces, private_bounds,
+            unsafe_code, unexpected_cfgs, dead_code, unused_qualifications, unreachable_pub, private_interfaces, private_bounds,
             non_camel_case_types, non_upper_case_globals, non_snake_case, missing_docs, unused_variables,
             clippy::undocumented_unsafe_blocks, clippy::multiple_unsafe_ops_per_block, clippy::missing_safety_doc,
             clippy::pedantic, clippy::restriction, clippy::nursery, clippy::style, clippy::complexity

@@ -24,13 +24,13 @@ fn places(model: &Struct) -> Places {
         let (at, next) = (format_ident!("__AT_{i}"), format_ident!("__AT_{}", i + 1));
         if i == 0 {
             consts.extend(quote!(
-                const __AT_0: usize = 0;
+                const __AT_0: ::core::primitive::usize = 0;
             ));
         }
         let span = place_of(ty);
         let krate = moved(krate, span);
         let count = quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT);
-        consts.extend(quote!(const #next: usize = #at + #count;));
+        consts.extend(quote!(const #next: ::core::primitive::usize = #at + #count;));
         let store = quote_spanned!(span=> <#ty as #krate::words::Words>::store);
         stores.push(quote!(#store(self.#member, __words, __at + #at);));
         let load = quote_spanned!(span=> <#ty as #krate::words::Words>::load);
@@ -38,7 +38,7 @@ fn places(model: &Struct) -> Places {
     }
     let end = format_ident!("__AT_{}", model.fields.len());
     let end = if model.fields.is_empty() { quote!(0) } else { quote!(#end) };
-    consts.extend(quote!(const __END: usize = #end;));
+    consts.extend(quote!(const __END: ::core::primitive::usize = #end;));
     let load = construct(quote!(Self), &model.fields, &loads);
     Places { consts, stores, load }
 }
@@ -60,13 +60,13 @@ pub fn derive_words(input: &DeriveInput) -> TokenStream {
             #consts
             #[automatically_derived]
             impl #krate::words::Words for #ident {
-                const COUNT: usize = __END;
+                const COUNT: ::core::primitive::usize = __END;
                 #[inline(always)]
-                fn store(self, __words: &mut #krate::words::WordBuffer, __at: usize) {
+                fn store(self, __words: &mut #krate::words::WordBuffer, __at: ::core::primitive::usize) {
                     #(#stores)*
                 }
                 #[inline(always)]
-                fn load(__words: &#krate::words::WordBuffer, __at: usize) -> Self {
+                fn load(__words: &#krate::words::WordBuffer, __at: ::core::primitive::usize) -> Self {
                     #load
                 }
             }
@@ -96,8 +96,8 @@ pub fn derive_attributes(input: &DeriveInput) -> TokenStream {
             #check
             #[automatically_derived]
             impl #krate::attributes::Attributes for #ident {
-                const NAME: &'static str = #name;
-                const WORDS: usize = __END;
+                const NAME: &'static ::core::primitive::str = #name;
+                const WORDS: ::core::primitive::usize = __END;
                 #[inline(always)]
                 fn load(__words: &#krate::words::WordBuffer) -> Self {
                     let __at = 0;

@@ -6,7 +6,10 @@ use crate::compiler;
 use crate::device_build::{self, Built};
 use crate::error::{Doing, Error};
 use crate::options::Shaders;
-use crate::util;
+use crate::{ptx, util};
+
+/// What to do about it.
+const LOCAL_MEMORY: &str = "index arrays by constants, and pass by value what does not fit registers";
 
 /// Compiles, tells cargo the outcome, and ends the process where there is none.
 pub(crate) fn compile(shaders: &Shaders) {
@@ -28,6 +31,9 @@ fn try_compile(shaders: &Shaders) -> Result<(), Error> {
         Ok(built) => {
             built.inputs.iter().for_each(|input| rerun_if_changed(input));
             let Built { name, text, .. } = built;
+            for (function, bytes) in ptx::local_memory(&text) {
+                println!("cargo::warning={function} keeps {bytes} bytes in local memory: {LOCAL_MEMORY}");
+            }
             (name, text)
         }
         Err(error @ (Error::NoDeviceCompiler { .. } | Error::SwitchedOff)) => {

@@ -155,6 +155,15 @@ impl DeviceCompiler {
         Ok(Self { rustc: rustc.to_path_buf(), release, llvm, library, archs, version })
     }
 
+    /// The target triple of the machine that it runs on.
+    #[cfg(feature = "cli")]
+    pub(crate) fn host(&self) -> Result<&str, Error> {
+        self.version.lines().find_map(|line| line.strip_prefix("host: ")).ok_or_else(|| Error::Output {
+            of: format!("{} -vV", self.rustc.display()),
+            reason: "there is no line `host:`".into(),
+        })
+    }
+
     /// The edition that this compiler's `core` is written in.
     pub(crate) fn core_edition(&self) -> Result<String, Error> {
         let manifest = self.library.join("core/Cargo.toml");

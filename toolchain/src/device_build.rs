@@ -1,5 +1,6 @@
 //! From a shader crate to a checked PTX file.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use crate::cargo;
@@ -45,89 +46,123 @@ pub(crate) fn shader_crate(path: &Path) -> Result<(Package, Workspace), Error> {
 }
 
 pub(crate) fn build(shaders: &Shaders, area: &Path) -> Result<Built, Error> {
-    let (package, workspace) = shader_crate(&shaders.path)?;
-    let compiler = DeviceCompiler::find()?;
-    if !compiler.archs.contains(&shaders.arch) {
-        return Err(Error::UnknownArch { arch: shaders.arch.clone(), known: compiler.archs });
-    }
-    util::create_dir(area)?;
-    // Cargo runs in other folders.
-    let area = std::fs::canonicalize(area).doing(|| format!("cannot find {}", area.display()))?;
-    let own = area.join("crates").join(format!("{}-{}", package.name, shaders.key(package.dir())));
-    let _lock = util::lock(&own.join("lock"))?;
-
-    // First the dependency graph, with the versions that the user has locked ..
-    let user_lock = workspace.root.join("Cargo.lock");
-    let resolve = Wrapper::write(own.join("resolve"), shaders, &package, None)?;
-    lock::seed(&resolve.dir, &std::fs::read_to_string(&user_lock).unwrap_or_default())?;
-    let graph = Workspace::with_dependencies(&resolve.dir)?;
-    // .. then the same with another libm.
-    let libm = PatchedLibm::write(&area, &graph.packages)?;
-    let wrapper = Wrapper::write(own.join("wrapper"), shaders, &package, libm.as_ref())?;
-    let mut locked = util::read(&resolve.dir.join("Cargo.lock"))?;
-    if let Some(libm) = &libm {
-        locked = lock::with_patched_libm(&locked, &libm.version, SOFTWARE);
-    }
-    lock::seed(&wrapper.dir, &locked)?;
-
-    let sysroot = sysroot::ensure(&compiler, &shaders.arch, &area, shaders.quiet)?;
-    let rustflags = shaders.rustflags(&sysroot).join("\x1f");
-    let target_dir = area.join(format!("build-{}", util::hash([compiler.version.as_str(), &rustflags])));
-    let ptx = own.join(format!("{}.ptx", wrapper.library));
-    run_cargo(shaders, &wrapper, &compiler, &rustflags, &target_dir, &ptx, &package)?;
-
-    let text = util::read(&ptx)?;
-    let module = ptx::Module::read(&text).map_err(|problem| Error::Ptx { path: ptx.clone(), problem })?;
-    let mut inputs = sources(&target_dir, &wrapper)?;
-    inputs.extend(graph.packages.iter().filter(|package| package.source.is_none()).map(|p| p.manifest.clone()));
-    inputs.retain(|file| !file.starts_with(&area));
-    inputs.extend(Some(user_lock).filter(|file| file.is_file()));
-    inputs.extend(Some(compiler.rustc).filter(|file| file.is_absolute()));
-    Ok(Built {
-        name: package.library.unwrap_or(package.name),
-        entries: module.entries.iter().map(|name| name.to_string()).collect(),
-        functions: module.functions.iter().map(|name| name.to_string()).collect(),
-        ptx,
-        text,
-        inputs,
-    })
+    Session::open(shaders, area)?.build()
 }
 
-fn run_cargo(
-    shaders: &Shaders,
-    wrapper: &Wrapper,
-    compiler: &DeviceCompiler,
-    rustflags: &str,
-    target_dir: &Path,
-    ptx: &Path,
-    package: &Package,
-) -> Result<(), Error> {
-    let run = || {
-        let mut command = cargo::command(&wrapper.dir);
-        command
-            .args(["rustc", "--lib", "--profile", PROFILE, "--target", TARGET])
-            .args(shaders.quiet.then_some("--quiet"))
-            .arg("--target-dir")
-            .arg(target_dir)
-            .arg("--")
-            .arg(format!("--emit=asm={}", ptx.display()))
-            .env("RUSTC", &compiler.rustc)
-            .env("RUSTC_BOOTSTRAP", "1")
-            // Also where a configuration file names a wrapper.
-            .env("RUSTC_WRAPPER", "")
-            .env("RUSTC_WORKSPACE_WRAPPER", "")
-            .env("CARGO_ENCODED_RUSTFLAGS", rustflags);
-        cargo::run(&mut command, &format!("compiling {} for the device", package.name))
-    };
-    run()?;
-    if !ptx.is_file() {
-        // Somebody removed it. Cargo does not know of the file, but it does look at the source's time.
-        let source = wrapper.dir.join("src/lib.rs");
-        let text = util::read(&source)?;
-        std::fs::write(&source, text).doing(|| format!("cannot write {}", source.display()))?;
-        run()?;
+/// A device build of one crate: while it lasts, no other process works in the crate's folder.
+pub(crate) struct Session<'a> {
+    pub shaders: &'a Shaders,
+    pub package: Package,
+    pub compiler: DeviceCompiler,
+    /// Every package that the shader crate is made from.
+    pub graph: Workspace,
+    /// The folder of this crate with these options.
+    pub own: PathBuf,
+    area: PathBuf,
+    /// The lock file of the user's workspace, where there is one.
+    user_lock: PathBuf,
+    resolve: Wrapper,
+    sysroot: PathBuf,
+    _lock: File,
+}
+
+impl<'a> Session<'a> {
+    /// Finds compiler and packages, and makes the sysroot.
+    pub fn open(shaders: &'a Shaders, area: &Path) -> Result<Self, Error> {
+        let (package, workspace) = shader_crate(&shaders.path)?;
+        let compiler = DeviceCompiler::find()?;
+        if !compiler.archs.contains(&shaders.arch) {
+            return Err(Error::UnknownArch { arch: shaders.arch.clone(), known: compiler.archs });
+        }
+        util::create_dir(area)?;
+        // Cargo runs in other folders.
+        let area = std::fs::canonicalize(area).doing(|| format!("cannot find {}", area.display()))?;
+        let own = area.join("crates").join(format!("{}-{}", package.name, shaders.key(package.dir())));
+        let lock = util::lock(&own.join("lock"))?;
+
+        // The dependency graph, with the versions that the user has locked.
+        let user_lock = workspace.root.join("Cargo.lock");
+        let resolve = Wrapper::write(own.join("resolve"), shaders, &package, None)?;
+        lock::seed(&resolve.dir, &std::fs::read_to_string(&user_lock).unwrap_or_default())?;
+        let graph = Workspace::with_dependencies(&resolve.dir)?;
+        let sysroot = sysroot::ensure(&compiler, &shaders.arch, &area, shaders.quiet)?;
+        Ok(Self { shaders, package, compiler, graph, own, area, user_lock, resolve, sysroot, _lock: lock })
     }
-    Ok(())
+
+    /// The lock file of the dependency graph.
+    pub fn locked(&self) -> Result<String, Error> {
+        util::read(&self.resolve.dir.join("Cargo.lock"))
+    }
+
+    fn rustflags(&self) -> String {
+        self.shaders.rustflags(&self.sysroot).join("\x1f")
+    }
+
+    /// Where cargo builds: shared by the crates of one area that are compiled alike.
+    pub fn target_dir(&self) -> PathBuf {
+        self.area.join(format!("build-{}", util::hash([self.compiler.version.as_str(), &self.rustflags()])))
+    }
+
+    /// Compiles the crate and checks that OptiX could load it.
+    pub fn build(&self) -> Result<Built, Error> {
+        // The packages of the graph, but for another libm.
+        let libm = PatchedLibm::write(&self.area, &self.graph.packages)?;
+        let wrapper = Wrapper::write(self.own.join("wrapper"), self.shaders, &self.package, libm.as_ref())?;
+        let mut locked = self.locked()?;
+        if let Some(libm) = &libm {
+            locked = lock::with_patched_libm(&locked, &libm.version, SOFTWARE);
+        }
+        lock::seed(&wrapper.dir, &locked)?;
+        let target_dir = self.target_dir();
+        let ptx = self.own.join(format!("{}.ptx", wrapper.library));
+        self.run_cargo(&wrapper, &target_dir, &ptx)?;
+
+        let text = util::read(&ptx)?;
+        let module = ptx::Module::read(&text).map_err(|problem| Error::Ptx { path: ptx.clone(), problem })?;
+        let mut inputs = sources(&target_dir, &wrapper)?;
+        let local = self.graph.packages.iter().filter(|package| package.source.is_none());
+        inputs.extend(local.map(|package| package.manifest.clone()));
+        inputs.retain(|file| !file.starts_with(&self.area));
+        inputs.extend(Some(self.user_lock.clone()).filter(|file| file.is_file()));
+        inputs.extend(Some(self.compiler.rustc.clone()).filter(|file| file.is_absolute()));
+        Ok(Built {
+            name: self.package.library.clone().unwrap_or_else(|| self.package.name.clone()),
+            entries: module.entries.iter().map(|name| name.to_string()).collect(),
+            functions: module.functions.iter().map(|name| name.to_string()).collect(),
+            ptx,
+            text,
+            inputs,
+        })
+    }
+
+    fn run_cargo(&self, wrapper: &Wrapper, target_dir: &Path, ptx: &Path) -> Result<(), Error> {
+        let run = || {
+            let mut command = cargo::command(&wrapper.dir);
+            command
+                .args(["rustc", "--lib", "--profile", PROFILE, "--target", TARGET])
+                .args(self.shaders.quiet.then_some("--quiet"))
+                .arg("--target-dir")
+                .arg(target_dir)
+                .arg("--")
+                .arg(format!("--emit=asm={}", ptx.display()))
+                .env("RUSTC", &self.compiler.rustc)
+                .env("RUSTC_BOOTSTRAP", "1")
+                // Also where a configuration file names a wrapper.
+                .env("RUSTC_WRAPPER", "")
+                .env("RUSTC_WORKSPACE_WRAPPER", "")
+                .env("CARGO_ENCODED_RUSTFLAGS", self.rustflags());
+            cargo::run(&mut command, &format!("compiling {} for the device", self.package.name))
+        };
+        run()?;
+        if !ptx.is_file() {
+            // Somebody removed it. Cargo does not know of the file, but it does look at the source's time.
+            let source = wrapper.dir.join("src/lib.rs");
+            let text = util::read(&source)?;
+            std::fs::write(&source, text).doing(|| format!("cannot write {}", source.display()))?;
+            run()?;
+        }
+        Ok(())
+    }
 }
 
 /// The sources that cargo found the PTX to depend on, those of path dependencies included.

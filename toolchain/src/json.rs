@@ -63,6 +63,15 @@ impl Json {
         members.into_iter().flatten().map(|(key, value)| (key.as_str(), value))
     }
 
+    /// A number that is a size or an index.
+    pub fn number(&self) -> Option<usize> {
+        match self {
+            // Exact: above 2^53 a double is no longer every integer.
+            Self::Number(number) if (0.0..9e15).contains(number) && number.fract() == 0.0 => Some(*number as usize),
+            _ => None,
+        }
+    }
+
     /// The text of a string.
     pub fn str(&self) -> Option<&str> {
         match self {
@@ -237,6 +246,8 @@ mod tests {
         assert_eq!(doc.get("a").items()[1], Json::Number(-2500.0));
         assert_eq!(doc.get("b").get("c").str(), Some("x\\\"\n\u{e9}\u{1f600}"));
         assert_eq!(doc.get("missing").get("too"), &Json::Null);
+        assert_eq!(Json::Number(12.0).number(), Some(12));
+        assert_eq!([Json::Number(-1.0), Json::Number(0.5), Json::Null].map(|json| json.number()), [None; 3]);
     }
 
     #[test]

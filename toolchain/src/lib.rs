@@ -29,6 +29,9 @@
 //! | run cargo on the wrapper with the outer cargo's environment removed | `cargo` |
 //! | check that the PTX has entries and no unresolved symbol | [`mod@ptx`] |
 //!
+//! The module `verify`, of the feature `cli`, goes further: for `cargo optix verify` it compares the PTX with what the host
+//! computes from the same `pipeline!`.
+//!
 //! Everything is under `<target directory>/optix`, which `cargo clean` removes.
 
 mod build_script;
@@ -45,6 +48,9 @@ mod options;
 pub mod ptx;
 mod sysroot;
 mod util;
+// Not for build scripts, which it would make slower.
+#[cfg(feature = "cli")]
+pub mod verify;
 mod wrapper;
 
 pub use compiler::{Candidate, DeviceCompiler, MINIMUM, Rejected, Release, Why};

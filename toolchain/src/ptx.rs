@@ -1,5 +1,10 @@
 //! What a PTX file holds, and whether OptiX could load it.
 
+#[cfg_attr(not(feature = "cli"), expect(dead_code, reason = "a build script asks for local memory only"))]
+pub(crate) mod body;
+#[cfg(feature = "cli")]
+pub(crate) mod calls;
+
 use std::fmt;
 
 /// The names in a PTX module.
@@ -74,7 +79,7 @@ impl<'a> Module<'a> {
             } else if let Some((before, rest)) = line.split_once(".func") {
                 let is_declaration = line.trim_end().ends_with(';');
                 if (before.is_empty() || before.starts_with('.')) && !is_declaration {
-                    module.functions.push(function_name(rest, &mut lines));
+                    module.functions.push(function_name_on(rest, &mut lines));
                 }
             }
         }
@@ -93,6 +98,18 @@ impl<'a> Module<'a> {
     }
 }
 
+/// The entries and functions that keep something in local memory, with the bytes: memory where registers should be.
+///
+/// ```
+/// let text = ".visible .entry __miss__x()\n{\n\t.local .align 4 .b8 \t__local_depot0[16];\n\tret;\n}\n";
+/// assert_eq!(optix_toolchain::ptx::local_memory(text), [("__miss__x".to_string(), 16)]);
+/// ```
+pub fn local_memory(text: &str) -> Vec<(String, usize)> {
+    let text = body::plain(text);
+    let bodies = body::bodies(&text);
+    bodies.iter().filter_map(|body| Some((body.name.to_string(), body.local_memory()?))).collect()
+}
+
 /// What the OptiX and CUDA run times define: device functions, `printf` and `assert`.
 fn provided(name: &str) -> bool {
     name.starts_with("_optix_") || matches!(name, "vprintf" | "__assertfail")
@@ -101,17 +118,24 @@ fn provided(name: &str) -> bool {
 /// `.extern .func  (.param .b32 func_retval0) name` or `.extern .global .align 4 .b8 name[];`
 fn extern_name<'a>(line: &'a str, lines: &mut std::str::Lines<'a>) -> &'a str {
     match line.split_once(".func") {
-        Some((_, rest)) => function_name(rest, lines),
+        Some((_, rest)) => function_name_on(rest, lines),
         None => identifier(line.split_whitespace().next_back().unwrap_or_default()),
     }
 }
 
-/// The name after `.func`: behind the result's parentheses, if there are any, and perhaps on the next line.
-fn function_name<'a>(rest: &'a str, lines: &mut std::str::Lines<'a>) -> &'a str {
+/// [`function_name`], which may be on the next line.
+fn function_name_on<'a>(rest: &'a str, lines: &mut std::str::Lines<'a>) -> &'a str {
+    match function_name(rest) {
+        "" => identifier(lines.next().unwrap_or_default().trim_start()),
+        name => name,
+    }
+}
+
+/// The name after `.func` or `.entry`: behind the result's parentheses, if there are any.
+fn function_name(rest: &str) -> &str {
     let rest = rest.trim_start();
     let rest = if rest.starts_with('(') { rest.split_once(')').map_or("", |(_, name)| name) } else { rest };
-    let rest = rest.trim_start();
-    identifier(if rest.is_empty() { lines.next().unwrap_or_default().trim_start() } else { rest })
+    identifier(rest.trim_start())
 }
 
 fn identifier(text: &str) -> &str {

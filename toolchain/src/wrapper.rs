@@ -4,7 +4,7 @@
 //! of the question, so a package of one line depends on the shader crate by path and re-exports it. Entry points and
 //! `global_asm!` of the shader crate, and of what it depends on, reach the PTX through link-time optimisation.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::error::Error;
 use crate::libm::PatchedLibm;
@@ -37,28 +37,33 @@ impl Wrapper {
             reason: "it has no library; its code belongs into src/lib.rs".into(),
         })?;
         write_if_changed(&dir.join("Cargo.toml"), &manifest(&library, shaders, package, libm))?;
-        write_if_changed(&dir.join("src/lib.rs"), &format!("#![no_std]\npub use {user_library}::*;\n"))?;
+        write_if_changed(
+            &dir.join("src/lib.rs"),
+            &format!("#![no_std]\n#![allow(unused_imports)]\npub use {user_library}::*;\n"),
+        )?;
         Ok(Self { dir, library })
     }
 }
 
-fn manifest(library: &str, shaders: &Shaders, package: &Package, libm: Option<&PatchedLibm>) -> String {
-    let path = |dir: &Path| toml_string(&dir.to_string_lossy());
+/// The manifest's table for the dependency on the shader crate.
+pub(crate) fn dependency(shaders: &Shaders, package: &Package) -> String {
     let features: Vec<String> = shaders.features.iter().map(|feature| toml_string(feature)).collect();
-    let mut text = format!(
-        "# Written by optix-toolchain; see its `wrapper` module.\n\
-         [package]\n\
-         name = {name}\n\
-         version = \"0.0.0\"\n\
-         edition = \"2024\"\n\
-         publish = false\n\n\
-         [lib]\n\
-         crate-type = [\"staticlib\"]\n\n\
-         [dependencies.{dependency}]\n\
+    format!(
+        "[dependencies.{dependency}]\n\
          path = {dir}\n\
          default-features = {default_features}\n\
-         features = [{features}]\n\n\
-         [profile.{PROFILE}]\n\
+         features = [{features}]\n",
+        dependency = toml_string(&package.name),
+        dir = toml_string(&package.dir().to_string_lossy()),
+        default_features = shaders.default_features,
+        features = features.join(", "),
+    )
+}
+
+/// The manifest's table for the profile. Packages that share a folder for builds share proc macros if it is the same.
+pub(crate) fn profile(shaders: &Shaders) -> String {
+    format!(
+        "[profile.{PROFILE}]\n\
          inherits = \"release\"\n\
          opt-level = 3\n\
          lto = \"fat\"\n\
@@ -68,17 +73,33 @@ fn manifest(library: &str, shaders: &Shaders, package: &Package, libm: Option<&P
          strip = false\n\
          overflow-checks = false\n\
          debug-assertions = false\n\
-         incremental = false\n\n\
+         incremental = false\n",
+        debug = if shaders.line_info { "\"line-directives-only\"" } else { "false" },
+    )
+}
+
+fn manifest(library: &str, shaders: &Shaders, package: &Package, libm: Option<&PatchedLibm>) -> String {
+    let mut text = format!(
+        "# Written by optix-toolchain; see its `wrapper` module.\n\
+         [package]\n\
+         name = {name}\n\
+         version = \"0.0.0\"\n\
+         edition = \"2024\"\n\
+         publish = false\n\n\
+         [lib]\n\
+         crate-type = [\"staticlib\"]\n\n\
+         {dependency}\n\
+         {profile}\n\
          [workspace]\n",
         name = toml_string(library),
-        dependency = toml_string(&package.name),
-        dir = path(package.dir()),
-        default_features = shaders.default_features,
-        features = features.join(", "),
-        debug = if shaders.line_info { "\"line-directives-only\"" } else { "false" },
+        dependency = dependency(shaders, package),
+        profile = profile(shaders),
     );
     if let Some(libm) = libm {
-        text.push_str(&format!("\n[patch.crates-io]\nlibm = {{ path = {} }}\n", path(&libm.dir)));
+        text.push_str(&format!(
+            "\n[patch.crates-io]\nlibm = {{ path = {} }}\n",
+            toml_string(&libm.dir.to_string_lossy())
+        ));
     }
     text
 }

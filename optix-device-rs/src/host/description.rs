@@ -115,12 +115,22 @@ pub struct ParamsDescription {
     pub align: usize,
     /// The fields.
     pub fields: &'static [Field],
+    /// Of its layout; the PTX has it as `{symbol}_layout`.
+    pub fingerprint: u64,
 }
 
 impl ParamsDescription {
     /// Of a parameter type.
     pub const fn of<P: crate::params::LaunchParams>() -> Self {
-        Self { name: P::NAME, symbol: P::SYMBOL, size: size_of::<P>(), align: align_of::<P>(), fields: P::FIELDS }
+        let (size, align) = (size_of::<P>(), align_of::<P>());
+        Self {
+            name: P::NAME,
+            symbol: P::SYMBOL,
+            size,
+            align,
+            fields: P::FIELDS,
+            fingerprint: crate::params::layout_fingerprint(size, align, P::FIELDS),
+        }
     }
 }
 

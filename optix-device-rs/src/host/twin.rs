@@ -58,7 +58,8 @@ impl Twin for () {
 /// Which host type stands in for a view in a host twin. Used by the derives.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a view of device memory",
-    label = "only `Slice`, `SliceMut`, `SliceMut2d` and `Traversable` have an owner on the host"
+    label = "only `Slice`, `SliceMut`, `SliceMut2d` and `Traversable` have an owner on the host",
+    note = "a field is taken for a view by its type's name or by `#[view]`: give a type of your own another name, or take `#[view]` away"
 )]
 pub trait View: DeviceData {
     /// The owner.

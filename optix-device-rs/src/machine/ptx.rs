@@ -5,6 +5,7 @@
 //! volatility follow the public device headers of OptiX 9.0 as facts.
 
 use super::TraceCall;
+use crate::data::DeviceData;
 use crate::params::LaunchParams;
 use crate::words::WordBuffer;
 use core::arch::asm;
@@ -39,36 +40,29 @@ impl<P> Copy for ParamsBase<'_, P> {}
 /// # Safety
 /// `P` has a field of type `T` at `OFFSET`.
 #[inline(always)]
-pub unsafe fn load_param<P: LaunchParams, T: Copy, const OFFSET: usize>(_: ParamsBase<'_, P>) -> T {
+pub unsafe fn load_param<P: LaunchParams, T: DeviceData, const OFFSET: usize>(_: ParamsBase<'_, P>) -> T {
     let mut value = MaybeUninit::<T>::uninit();
-    let words = value.as_mut_ptr().cast::<u32>();
-    let aligned = align_of::<T>() >= 4;
-    if aligned && size_of::<T>() <= 128 {
-        macro_rules! words {
-            ($($i:literal)*) => {$(
-                if size_of::<T>() > 4 * $i {
-                    // SAFETY: word `i` is inside `T`, whose size is a multiple of its alignment, 4 or more.
-                    unsafe { words.add($i).write(P::word::<OFFSET, $i>()) };
-                }
-            )*};
-        }
-        words!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31);
-    } else if !aligned && size_of::<T>() <= 8 {
-        let bytes = value.as_mut_ptr().cast::<u8>();
-        macro_rules! bytes {
-            ($($i:literal)*) => {$(
-                if size_of::<T>() > $i {
-                    // SAFETY: byte `i` is inside `T`.
-                    unsafe { bytes.add($i).write(P::byte::<OFFSET, $i>()) };
-                }
-            )*};
-        }
-        bytes!(0 1 2 3 4 5 6 7);
-    } else {
+    let most = if T::UNIT >= 4 { 128 } else { 8 };
+    if size_of::<T>() > most {
         // Large fields are read through a pointer; such loads can't be specialised.
         // SAFETY: the symbol is a valid `P`, which has a `T` at `OFFSET`.
         return unsafe { P::address().add(OFFSET).cast::<T>().read() };
     }
+    macro_rules! load {
+        ($unit:ident as $ty:ty: $($i:literal)*) => {
+            if T::UNIT == size_of::<$ty>() {
+                $(if size_of::<T>() > size_of::<$ty>() * $i {
+                    let to = value.as_mut_ptr().cast::<$ty>();
+                    // SAFETY: inside of `T`, whose size and alignment are multiples of `UNIT`.
+                    unsafe { to.add($i).write(P::$unit::<OFFSET, $i>()) };
+                })*
+            }
+        };
+    }
+    load!(long as u64: 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);
+    load!(word as u32: 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31);
+    load!(half as u16: 0 1 2 3);
+    load!(byte as u8: 0 1 2 3 4 5 6 7);
     // SAFETY: all bytes are written, from a valid `T`.
     unsafe { value.assume_init() }
 }
@@ -211,7 +205,8 @@ impl Cx {
             mut p31,
         ] = call.payload.0;
         let ray = &call.ray;
-        // Registers of words the payload does not have are declared in the block and never read.
+        // Registers of words the payload does not have are declared in the block and never read. No brace stands alone on
+        // a line: to who reads the PTX, that is the end of an entry.
         macro_rules! arm {
             ($count:expr, [$($used:ident)*] [$($unused:ident)*]) => {
                 if $count == count!($($used)*) {
@@ -230,9 +225,8 @@ impl Cx {
                                 "), _optix_trace_typed_32, ({ty}, {handle}, f0, f1, f2, f3, f4, f5, f6, f7, f8, ",
                                 "{mask}, {flags}, {offset}, {stride}, {miss}, {words}, ",
                                 arm!(@list [$($used)*] [$($unused)*]),
-                                ");"
+                                "); }}"
                             ),
-                            "}}",
                             ty = in(reg32) call.payload_type,
                             handle = in(reg64) call.traversable,
                             ox = in(reg32) ray.origin.x,
@@ -299,7 +293,9 @@ impl Cx {
                             "call ({w}), _optix_get_payload, ({i});",
                             w = out(reg32) words.0[$i],
                             i = in(reg32) $i,
-                            options(nostack, preserves_flags)
+                            // Goes if nobody needs the word; stays where it is among calls that set words, which
+                            // count as writes to memory.
+                            options(pure, readonly, nostack, preserves_flags)
                         )
                     };
                 }
@@ -479,9 +475,8 @@ impl Cx {
                             concat!(
                                 "call ({accepted}), _optix_report_intersection_", arm!(@n $($used)*), ", (f, {kind}",
                                 $(", {", stringify!($used), "}",)*
-                                ");"
+                                "); }}"
                             ),
-                            "}}",
                             t = in(reg32) t,
                             kind = in(reg32) kind,
                             $($used = in(reg32) $used,)*

@@ -1,6 +1,7 @@
 //! What programs may ask about the primitive, the hit and the transforms (guide 13.4, 13.7, 13.9, 13.11).
 
-use super::{AnyHit, Attributes, ClosestHit, Intersection, Triangles};
+use super::{AnyHit, Attributes, ClosestHit, Intersection};
+use crate::check::OnTriangles;
 use crate::spawn::SurfacePoint;
 use glam::{Mat3, Vec2, Vec3};
 
@@ -139,20 +140,30 @@ macro_rules! hit_queries {
             }
         }
 
-        impl<P> $name<P, Triangles> {
+        // Of hits on triangles. The bound is on the methods, not the impl: so its message is shown.
+        impl<P, A> $name<P, A> {
             /// Weights of the second and third vertex (guide 13.4).
             #[inline(always)]
-            pub fn barycentrics(&self) -> Vec2 {
+            pub fn barycentrics(&self) -> Vec2
+            where
+                A: OnTriangles,
+            {
                 self.cx.barycentrics()
             }
             /// Which side was hit; an instance may flip it.
             #[inline(always)]
-            pub fn face(&self) -> Face {
+            pub fn face(&self) -> Face
+            where
+                A: OnTriangles,
+            {
                 if self.cx.hit_kind() == 254 { Face::Front } else { Face::Back }
             }
             /// The triangle's vertices in object space (guide 13.9).
             #[inline(always)]
-            pub fn vertices(&self) -> [Vec3; 3] {
+            pub fn vertices(&self) -> [Vec3; 3]
+            where
+                A: OnTriangles,
+            {
                 self.cx.triangle_vertices()
             }
         }
@@ -160,10 +171,13 @@ macro_rules! hit_queries {
 }
 hit_queries!(AnyHit, ClosestHit);
 
-impl<P> ClosestHit<P, Triangles> {
+impl<P, A> ClosestHit<P, A> {
     /// The hit point in world space with its normal and error bound, to shade and to spawn rays from.
     #[inline(always)]
-    pub fn surface_point(&self) -> SurfacePoint {
+    pub fn surface_point(&self) -> SurfacePoint
+    where
+        A: OnTriangles,
+    {
         SurfacePoint::of_triangle(
             self.vertices(),
             self.barycentrics(),

@@ -8,7 +8,7 @@ mod hit;
 pub use hit::{Face, Transform};
 mod trace;
 
-use crate::attributes::{Attributes, Triangles};
+use crate::attributes::Attributes;
 use crate::data::DeviceData;
 use crate::machine::Cx;
 use crate::params::LaunchParams;

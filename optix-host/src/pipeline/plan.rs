@@ -118,6 +118,9 @@ impl Plan {
             );
         }
 
+        if let Some(text) = ptx {
+            check_layout(&description, text)?;
+        }
         let entries = needed_entries(&description, &used);
         let (trace_depth, why) = trace_depth(&description, &entries, ptx)?;
         note("trace depth", trace_depth.to_string(), why);
@@ -142,6 +145,22 @@ impl Plan {
 
     pub fn explanation(&self) -> Explanation {
         Explanation { pipeline: self.description.name, notes: self.notes.clone(), device: Vec::new() }
+    }
+}
+
+/// Whether the PTX reads the launch parameters where this host writes them.
+fn check_layout(description: &PipelineDescription, text: &str) -> Result<()> {
+    let params = &description.params;
+    match ptx::layout_fingerprint(text, params.symbol) {
+        Some(fingerprint) if fingerprint == params.fingerprint => Ok(()),
+        found => Err(Error::Pipeline {
+            pipeline: description.name,
+            what: format!(
+                "the PTX is of another build than this host: {} of launch parameters `{}`; build both from the same source",
+                if found.is_some() { "it has another layout" } else { "it has no layout" },
+                params.name
+            ),
+        }),
     }
 }
 

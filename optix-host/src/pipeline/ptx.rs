@@ -29,12 +29,31 @@ pub fn entries(ptx: &str) -> Vec<PtxEntry<'_>> {
         let begin = at + found;
         let name_begin = begin + HEAD.len();
         let name_end = ptx[name_begin..].find('(').map_or(ptx.len(), |n| name_begin + n);
-        // Inline assembly opens braces of its own; the body's closing brace stands alone on its line.
-        let end = ptx[name_end..].find("\n}").map_or(ptx.len(), |n| name_end + n + 2);
+        let end = body_end(ptx, name_end);
         entries.push(PtxEntry { name: ptx[name_begin..name_end].trim(), text: &ptx[begin..end], begin });
         at = end;
     }
     entries
+}
+
+/// Behind the closing brace of the first block after `from`. Inline assembly opens blocks of its own inside.
+fn body_end(ptx: &str, from: usize) -> usize {
+    let mut depth = 0;
+    for (at, brace) in ptx[from..].match_indices(['{', '}']) {
+        depth += if brace == "{" { 1 } else { -1 };
+        if depth == 0 {
+            return from + at + 1;
+        }
+    }
+    ptx.len()
+}
+
+/// The layout fingerprint that `#[launch_params]` put beside the parameter variable `symbol`; `None` where there is none.
+pub fn layout_fingerprint(ptx: &str, symbol: &str) -> Option<u64> {
+    let begin = ptx.find(&format!("{symbol}_layout = "))? + symbol.len() + "_layout = ".len();
+    let number = ptx[begin..].split(';').next()?.trim();
+    // A number above `i64::MAX` may be written as the negative one with the same bits.
+    number.parse().ok().or_else(|| number.parse::<i64>().ok().map(i64::cast_unsigned))
 }
 
 /// The text without the entries that `keep` says no to.
@@ -86,4 +105,56 @@ fn constants(text: &str) -> BTreeMap<&str, Option<u32>> {
             .or_insert(value);
     }
     constants
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PTX: &str = "\
+.visible .const .align 8 .b8 p[16];
+.visible .global .align 8 .b64 p_layout = -2;
+
+.visible .entry __raygen__a()
+{
+\tmov.b32 \t%r1, 2;
+\tmov.b32 \t%r2, 1;
+\tmov.b32 \t%r2, %r9;
+\t{
+\tcall (%r5), _optix_trace_typed_32, (%r1, %rd1, f0);
+}
+\t{
+\tcall (%r5), _optix_trace_typed_32, (4, %rd1, f0);
+}
+\tret;
+}
+\t// .globl\t__miss__b
+.visible .entry __miss__b()
+{
+\tcall (%r5), _optix_trace_typed_32, (%r2, %rd1, f0);
+\tret;
+}
+";
+
+    #[test]
+    fn entries_end_at_their_own_brace() {
+        let found = entries(PTX);
+        assert_eq!(found.iter().map(|e| e.name).collect::<Vec<_>>(), ["__raygen__a", "__miss__b"]);
+        assert!(found[0].text.ends_with("ret;\n}"));
+        let rest = without_entries(PTX, |name| name != "__raygen__a");
+        assert!(rest.contains("p_layout") && rest.contains("__miss__b") && !rest.contains("__raygen__a()"));
+    }
+
+    #[test]
+    fn traced_types_are_constants_or_unknown() {
+        let found = entries(PTX);
+        assert_eq!(traced_types(&found[0]), Some(BTreeSet::from([2, 4])));
+        assert_eq!(traced_types(&found[1]), None);
+    }
+
+    #[test]
+    fn fingerprints_are_read_with_either_sign() {
+        assert_eq!(layout_fingerprint(PTX, "p"), Some(u64::MAX - 1));
+        assert_eq!(layout_fingerprint(PTX, "q"), None);
+    }
 }

@@ -55,8 +55,8 @@ pub fn emit(payload: &Payload) -> TokenStream {
         let krate = moved(krate, span);
         let words = quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT);
         places.extend(quote! {
-            const #count: usize = #words;
-            const #next: usize = #at + #count;
+            const #count: ::core::primitive::usize = #words;
+            const #next: ::core::primitive::usize = #at + #count;
         });
         let bits = Party::ALL.into_iter().flat_map(|party| {
             let bit = |word: &str| {
@@ -87,16 +87,17 @@ pub fn emit(payload: &Payload) -> TokenStream {
 
         #allow
         const _: () = {
-            const __AT_0: usize = 0;
+            const __AT_0: ::core::primitive::usize = 0;
             #places
-            const __WORDS: usize = #end;
+            const __WORDS: ::core::primitive::usize = #end;
             #check
 
+            // SAFETY: the words are counted above (32 at most, asserted), and each part has the fields its party may touch.
             #[automatically_derived]
-            impl #krate::payload::Payload for #ident {
-                const NAME: &'static str = #name;
-                const WORDS: usize = __WORDS;
-                const SEMANTICS: &'static [u32] = &{
+            unsafe impl #krate::payload::Payload for #ident {
+                const NAME: &'static ::core::primitive::str = #name;
+                const WORDS: ::core::primitive::usize = __WORDS;
+                const SEMANTICS: &'static [::core::primitive::u32] = &{
                     let mut __all = [0u32; __WORDS];
                     #semantics
                     __all
@@ -126,7 +127,7 @@ fn part_struct(payload: &Payload, part: &Part) -> TokenStream {
     });
     quote! {
         #[doc = #doc]
-        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+        #[derive(::core::clone::Clone, ::core::marker::Copy)]
         #[allow(dead_code, unreachable_pub, private_interfaces, missing_docs)]
         #vis struct #ident {
             #(#fields,)*
@@ -155,10 +156,26 @@ fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
         let store = quote_spanned!(span=> <#ty as #krate::words::Words>::store);
         quote!(#store(self.#member, __words, #at);)
     });
-    quote! {
+    let text = part.ident.to_string();
+    let shown = fields.iter().map(|field| {
+        let (member, name) = (&field.member, field.name());
+        quote!(.field(#name, (&&#krate::check::Show(&self.#member)).shown()))
+    });
+    let debug = quote! {
         #[automatically_derived]
-        impl #krate::payload::Part for #ident {
-            const MASK: u32 = 0 #(| #masks)*;
+        impl ::core::fmt::Debug for #ident {
+            fn fmt(&self, __f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                use #krate::check::{ShowValue as _, ShowName as _};
+                __f.debug_struct(#text) #(#shown)* .finish()
+            }
+        }
+    };
+    quote! {
+        #debug
+        // SAFETY: a field's words are counted by its type.
+        #[automatically_derived]
+        unsafe impl #krate::payload::Part for #ident {
+            const MASK: ::core::primitive::u32 = 0 #(| #masks)*;
             #[inline(always)]
             fn load(__words: &#krate::words::WordBuffer) -> Self {
                 Self { #(#loads),* }

@@ -143,9 +143,10 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
         let entry = entries.add(Kind::RayGen, program, &quote!(#ident, _), &bound, &[]);
         let index = i as u32;
         impls.extend(quote! {
+            // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
-            impl #krate::pipeline::HasRayGen<#program> for #ident {
-                const INDEX: u32 = #index;
+            unsafe impl #krate::pipeline::HasRayGen<#program> for #ident {
+                const INDEX: ::core::primitive::u32 = #index;
                 type Record = #record;
             }
         });
@@ -176,10 +177,14 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
     for (i, group) in pipeline.groups.iter().enumerate() {
         let (record, index) = (&group.record, i as u32);
         let geometry = format_ident!("{}", group.geometry.name(), span = group.geometry_span);
-        impls.extend(quote! {
+        let span = place_of(record);
+        let (there, pipeline_there) = (moved(krate, span), moved(ident, span));
+        // Two names of one record conflict: rustc says so where the names are.
+        impls.extend(quote_spanned! {span=>
+            // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
-            impl #krate::pipeline::HasHitGroup<#record, #krate::attributes::#geometry> for #ident {
-                const INDEX: u32 = #index;
+            unsafe impl #there::pipeline::HasHitGroup<#record, #krate::attributes::#geometry> for #pipeline_there {
+                const INDEX: ::core::primitive::u32 = #index;
             }
         });
         groups.push(describe_group(pipeline, group, &mut entries, &mut impls));
@@ -187,15 +192,17 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
 
     let ray_types = pipeline.rays.len() as u32;
     let depth = option(pipeline.trace_depth.as_ref().map(|depth| depth.to_token_stream()));
+    let facts = format_ident!("__optix_facts_{}", entries.place);
     let items = entries.items;
     quote! {
         #structure
         #allow
         const _: () = {
+            // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
-            impl #krate::pipeline::Pipeline for #ident {
+            unsafe impl #krate::pipeline::Pipeline for #ident {
                 type Params = #params;
-                const RAY_TYPES: u32 = #ray_types;
+                const RAY_TYPES: ::core::primitive::u32 = #ray_types;
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
                     name: #pipeline_name,
@@ -208,6 +215,13 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
             }
             #impls
             #items
+            // `cargo optix verify` compares the PTX with this. It finds a pipeline by the place in its entries' names, so
+            // private ones too; other builds do without the symbol.
+            #[cfg(optix_facts)]
+            #[unsafe(no_mangle)]
+            fn #facts() -> &'static #krate::host::PipelineDescription {
+                &<#ident as #krate::pipeline::Pipeline>::DESCRIPTION
+            }
         };
     }
 }
@@ -310,10 +324,13 @@ fn has_rays(pipeline: &Pipeline) -> TokenStream {
         let krate = moved(krate, span);
         let has_ray = quote_spanned!(span=> #krate::pipeline::HasRay<#payload>);
         let record = miss_record(pipeline, payload, ray.miss.as_ref());
-        quote! {
+        // Two names of one payload conflict: rustc says so where the names are.
+        let pipeline = moved(ident, span);
+        quote_spanned! {span=>
+            // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
-            impl #has_ray for #ident {
-                const INDEX: u32 = #index;
+            unsafe impl #has_ray for #pipeline {
+                const INDEX: ::core::primitive::u32 = #index;
                 type MissRecord = #record;
             }
         }
@@ -349,9 +366,10 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
     let rays = rays.enumerate().map(|(i, ray)| {
         let (payload, index) = (&ray.payload, i as u32);
         quote! {
+            // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
-            impl #krate::pipeline::HasRay<#payload> for #ident {
-                const INDEX: u32 = #index;
+            unsafe impl #krate::pipeline::HasRay<#payload> for #ident {
+                const INDEX: ::core::primitive::u32 = #index;
                 type MissRecord = ();
             }
         }
@@ -360,10 +378,11 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
         #structure
         #allow
         const _: () = {
+            // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
-            impl #krate::pipeline::Pipeline for #ident {
+            unsafe impl #krate::pipeline::Pipeline for #ident {
                 type Params = #params;
-                const RAY_TYPES: u32 = 0;
+                const RAY_TYPES: ::core::primitive::u32 = 0;
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
                     name: #pipeline_name,

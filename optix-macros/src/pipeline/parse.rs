@@ -1,7 +1,7 @@
 //! The grammar of `pipeline!`. A mistake costs the item it is in, not the rest.
 
 use crate::program::Kind;
-use crate::support::{Errors, default_crate};
+use crate::support::{Errors, cfg_of, crate_path, default_crate};
 use proc_macro2::{Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::{ParseStream, Parser};
@@ -80,6 +80,9 @@ pub fn parse(tokens: TokenStream, errors: &mut Errors) -> Option<Pipeline> {
 
 fn pipeline(input: ParseStream<'_>, errors: &mut Errors) -> Result<Pipeline> {
     let attrs = input.call(Attribute::parse_outer)?;
+    if let Some(cfg) = cfg_of(&attrs) {
+        errors.at(cfg, "write `#[cfg(..)]` above `pipeline!`, so that it holds for all that the macro makes");
+    }
     let vis = input.parse()?;
     if input.parse::<Option<Token![struct]>>()?.is_none() {
         return Err(input.error(format!("expected a struct: {EXAMPLE}")));
@@ -126,7 +129,7 @@ fn pipeline(input: ParseStream<'_>, errors: &mut Errors) -> Result<Pipeline> {
         match word.as_str() {
             "params" => pipeline.params = Some(input.parse()?),
             "trace_depth" => pipeline.trace_depth = Some(input.parse()?),
-            "crate" => pipeline.krate = Path::parse_mod_style(input)?,
+            "crate" => pipeline.krate = crate_path(input)?,
             "raygen" => {
                 if !input.peek(syn::token::Bracket) {
                     return Err(input.error("expected the ray-generation programs in brackets: `raygen: [camera]`"));
@@ -170,10 +173,13 @@ fn pipeline(input: ParseStream<'_>, errors: &mut Errors) -> Result<Pipeline> {
     Ok(pipeline)
 }
 
+const NO_ATTRIBUTES: &str = "nothing inside a pipeline has attributes: it is one set of programs, the same on host and \
+                             device; for another set declare another pipeline, with `#[cfg(..)]` above its `pipeline!`";
+
 /// Items with commas between. An item that can't be read costs the tokens up to the next comma.
 fn list(input: ParseStream<'_>, errors: &mut Errors, mut item: impl FnMut(ParseStream<'_>, &mut Errors) -> Result<()>) {
     while !input.is_empty() {
-        let result = item(input, errors);
+        let result = if input.peek(Token![#]) { Err(input.error(NO_ATTRIBUTES)) } else { item(input, errors) };
         let failed = result.is_err();
         if let Err(error) = result {
             errors.push(error);
@@ -204,7 +210,9 @@ fn program(input: ParseStream<'_>) -> Result<Path> {
         |input: ParseStream<'_>| input.peek(Token![<]) || input.peek(Token![::]) && input.peek3(Token![<]);
     let mut path = Path { leading_colon: input.parse()?, segments: Default::default() };
     loop {
-        path.segments.push_value(input.call(Ident::parse_any)?.into());
+        let leads = input.peek(Token![crate]) || input.peek(Token![self]) || input.peek(Token![super]);
+        let segment = if leads { input.call(Ident::parse_any)? } else { input.parse::<Ident>()? };
+        path.segments.push_value(segment.into());
         if with_arguments(input) {
             return Err(
                 input.error("a program is named without `<..>`: `pipeline!` fills in the pipeline, record and payload")

@@ -23,17 +23,19 @@ fn program_trait(kind: Kind) -> Ident {
 pub fn emit(program: &Program) -> TokenStream {
     let Program { kind, krate, ident, pipeline, .. } = program;
     let (marker, allow) = (marker(ident), allow());
-    let (trait_name, context) = (program_trait(*kind), format_ident!("{}", kind.context()));
+    let context = format_ident!("{}", kind.context());
+    let trait_there = Ident::new(&program_trait(*kind).to_string(), program.context_span);
     let payload_trait = quote!(#krate::payload::Payload);
 
     let mut generics = without_defaults(&program.generics);
-    let mut bounds: Vec<TokenStream> = Vec::new();
+    // Before the user's, with their bounds in place: rustc suggests bounds after the last parameter.
+    let mut parameter = |parameter| generics.params.insert(0, parameter);
 
     // Record: what the program names, else whatever the hit group has.
     let record = match &program.record {
         Some(record) => record.to_token_stream(),
         None if kind.has_hits() => {
-            generics.params.push(syn::parse_quote!(__Rec: #krate::record::SbtRecord));
+            parameter(syn::parse_quote!(__Rec: #krate::record::SbtRecord));
             quote!(__Rec)
         }
         None => quote!(()),
@@ -47,8 +49,7 @@ pub fn emit(program: &Program) -> TokenStream {
             quote_spanned!(span=> <#part as #krate::payload::PartOf>::Payload)
         }
         (Some(Roles { from, .. }), None) => {
-            generics.params.push(syn::parse_quote!(__R: #payload_trait));
-            bounds.push(quote!(<__R as #payload_trait>::#from: #krate::check::MayReturnNothing));
+            parameter(syn::parse_quote!(__R: #payload_trait<#from: #krate::check::MayReturnNothing>));
             quote!(__R)
         }
     };
@@ -61,7 +62,11 @@ pub fn emit(program: &Program) -> TokenStream {
         let take = quote_spanned!(span=> <#input as #krate::check::#received<#payload>>::take);
         quote!(, #take(__input))
     });
-    let call = quote!(#ident(__cx #record_argument #input_argument));
+    // A context or a decision that only has the right name is reported where its type is.
+    let context_argument = quote_spanned!(program.context_span=> __cx);
+    let mut function = ident.clone();
+    function.set_span(ident.span().located_at(program.result_span));
+    let call = quote_spanned!(program.result_span=> #function(#context_argument #record_argument #input_argument));
     let nothing = kind.roles().map(|Roles { from, .. }| {
         let span = place_of(ident);
         let (krate, payload, payload_trait, from) =
@@ -108,26 +113,25 @@ pub fn emit(program: &Program) -> TokenStream {
     let (input, output) = match kind.roles() {
         None => (TokenStream::new(), TokenStream::new()),
         Some(Roles { at, from, .. }) => {
-            let part = |role: &Ident| quote!(<#payload as #payload_trait>::#role);
+            let span = program.input.as_ref().or(program.output.as_ref()).map_or(program.context_span, place_of);
+            let part = |role: &Ident| moved(&quote!(<#payload as #payload_trait>::#role), span);
             let (input, output) = (part(&at), part(&from));
             let decision = quote!(#krate::ray::Decision);
             let output = if *kind == Kind::AnyHit { quote!((#decision, #output)) } else { output };
             (quote!(, __input: #input), quote!(-> #output))
         }
     };
-    if !bounds.is_empty() {
-        let clause = generics.make_where_clause();
-        for bound in bounds {
-            clause.predicates.push(syn::parse_quote!(#bound));
-        }
-    }
     let (impl_generics, _, where_clause) = generics.split_for_impl();
+    let krate_there = moved(krate, program.context_span);
+    let implemented = quote_spanned! {program.context_span=>
+        #krate_there::program::#trait_there<#trait_arguments>
+    };
     quote! {
         #marker
         #allow
         const _: () = {
             #[automatically_derived]
-            impl #impl_generics #krate::program::#trait_name<#trait_arguments> for #ident #where_clause {
+            impl #impl_generics #implemented for #ident #where_clause {
                 #assoc
                 #[inline(always)]
                 fn run(__cx: &#krate::program::#context<#context_arguments>, __record: &#record #input) #output {

@@ -8,12 +8,12 @@ pub use model::Kind;
 use crate::support::{Errors, crate_argument};
 use proc_macro2::TokenStream;
 use quote::quote;
-use syn::Item;
+use syn::{Attribute, Item};
 
 pub fn expand(kind: Kind, arguments: TokenStream, item: TokenStream) -> TokenStream {
     let mut errors = Errors::default();
     let krate = crate_argument(arguments, kind.attribute(), &mut errors);
-    let function = match syn::parse2::<Item>(item.clone()) {
+    let mut function = match syn::parse2::<Item>(item.clone()) {
         Ok(Item::Fn(function)) => function,
         Ok(other) => {
             let message = format!("`#[{}]` belongs on a function: {}", kind.attribute(), kind.example());
@@ -27,9 +27,16 @@ pub fn expand(kind: Kind, arguments: TokenStream, item: TokenStream) -> TokenStr
             return quote!(#errors #item);
         }
     };
+    let other = |a: &Attribute| a.path().segments.last().and_then(|s| Kind::ALL.into_iter().find(|k| s.ident == k.attribute()));
+    for second in function.attrs.extract_if(.., |a| other(a).is_some()) {
+        errors.at(
+            second,
+            format!("a program is of one kind, and `#[{}]` already says which: write a function for each", kind.attribute()),
+        );
+    }
     let program = model::Program::new(kind, krate.clone(), &function, &mut errors);
     // In an impl there is no room for the type that stands for the program.
-    let in_impl = function.sig.receiver().is_some();
+    let in_impl = model::is_in_impl(&function.sig);
     let items = match program {
         _ if in_impl => TokenStream::new(),
         Some(program) if errors.is_empty() => emit::emit(&program),

@@ -1,11 +1,11 @@
 //! What a program's signature says.
 
-use crate::support::{Errors, ungroup};
-use proc_macro2::{TokenStream, TokenTree};
+use crate::support::{Errors, cfg_of, mentions, place_of, ungroup};
+use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{
-    Error, FnArg, GenericArgument, GenericParam, Generics, Ident, ItemFn, Path, PathArguments, ReturnType, Safety,
-    Type, TypeReference,
+    Error, FnArg, GenericArgument, GenericParam, Generics, Ident, ItemFn, PatType, Path, PathArguments, Receiver,
+    ReturnType, Safety, Type, TypeReference,
 };
 
 /// The kinds of program.
@@ -100,6 +100,10 @@ pub struct Program {
     pub input: Option<Type>,
     /// The payload part it returns.
     pub output: Option<Type>,
+    /// Where the context's type is.
+    pub context_span: Span,
+    /// Where the result's type is, else the name.
+    pub result_span: Span,
     /// An any-hit program that returns `(Decision, ())`.
     pub returns_unit_part: bool,
 }
@@ -109,6 +113,16 @@ impl Program {
     pub fn new(kind: Kind, krate: Path, function: &ItemFn, errors: &mut Errors) -> Option<Self> {
         let sig = &function.sig;
         qualifiers(kind, function, errors);
+        calls_itself(function, errors);
+        for argument in &sig.inputs {
+            is_for_the_call(argument, errors);
+        }
+        for argument in &sig.inputs {
+            let (FnArg::Typed(PatType { attrs, .. }) | FnArg::Receiver(Receiver { attrs, .. })) = argument;
+            if let Some(cfg) = cfg_of(attrs) {
+                errors.at(cfg, "a program has the same arguments on host and device: write two programs, each with `#[cfg(..)]` above its attribute");
+            }
+        }
         let mut arguments = sig.inputs.iter();
         let context = arguments.next();
         let Some(context) = context else {
@@ -121,6 +135,17 @@ impl Program {
             errors.push(Error::new(sig.paren_token.span.join(), message));
             return None;
         };
+        let context_span = match context {
+            FnArg::Typed(PatType { ty, .. }) => match ungroup(ty) {
+                Type::Reference(reference) => place_of(&reference.elem),
+                ty => place_of(ty),
+            },
+            FnArg::Receiver(receiver) => place_of(receiver),
+        };
+        let result_span = match &sig.output {
+            ReturnType::Type(_, ty) => place_of(ty),
+            ReturnType::Default => place_of(&sig.ident),
+        };
         let context = context_type(kind, context, errors);
         let mut typed = Vec::new();
         for argument in arguments {
@@ -131,9 +156,28 @@ impl Program {
         }
         let (record, input) = record_and_payload(kind, &typed, errors);
         let output = output(kind, &sig.output, sig, errors);
+        for part in [&input, &output].into_iter().flatten() {
+            names_its_payload(part, &sig.generics, errors);
+        }
         let returns_unit_part = output.is_none()
             && matches!(&sig.output, ReturnType::Type(_, ty) if matches!(ungroup(ty), Type::Tuple(t) if t.elems.len() == 2));
+        if sig.receiver().is_none() && is_in_impl(sig) {
+            errors.push(Error::new(
+                sig.ident.span(),
+                format!("{} is a free function, outside any `impl`: name the types that `Self` stands for", kind.phrase()),
+            ));
+        }
         let (pipeline, hits) = context?;
+        for ty in [Some(&pipeline), hits.as_ref(), record.as_ref()].into_iter().flatten() {
+            for word in ["impl", "dyn"] {
+                if mentions(ty.to_token_stream(), word) {
+                    errors.at(
+                        ty,
+                        format!("a program's arguments have named types: write a type parameter instead of `{word}`"),
+                    );
+                }
+            }
+        }
         let program = Self {
             kind,
             krate,
@@ -144,6 +188,8 @@ impl Program {
             record,
             input,
             output,
+            context_span,
+            result_span,
             returns_unit_part,
         };
         program.check_generics(errors);
@@ -164,19 +210,23 @@ impl Program {
                 GenericParam::Type(parameter) => (&parameter.ident, parameter.to_token_stream()),
                 GenericParam::Const(parameter) => (&parameter.ident, parameter.to_token_stream()),
             };
+            // A hit group says what its record and its hits are. Ray generation and miss have a record of their own, and
+            // intersection programs say what hits there are.
+            let has_group = self.kind.has_hits();
             let types = [
                 Some(&self.pipeline),
-                self.hits.as_ref(),
-                self.record.as_ref(),
+                self.hits.as_ref().filter(|_| self.kind != Kind::Intersection),
+                self.record.as_ref().filter(|_| has_group),
                 self.input.as_ref(),
                 self.output.as_ref(),
             ];
-            if !types.into_iter().flatten().any(|ty| mentions(ty.to_token_stream(), ident)) {
+            if !types.into_iter().flatten().any(|ty| mentions(ty.to_token_stream(), &ident.to_string())) {
                 errors.at(
                     tokens,
                     format!(
-                        "`pipeline!` can't tell what `{ident}` is: a program's parameters must appear in its context, \
-                         record or payload, as `P` does in `{}`",
+                        "`pipeline!` can't tell what `{ident}` is: {} gets from it {}, as in `{}`; name the type",
+                        self.kind.phrase(),
+                        known(self.kind),
                         kind_generic(self.kind)
                     ),
                 );
@@ -185,13 +235,91 @@ impl Program {
     }
 }
 
+/// Nothing that a program borrows outlives its call.
+fn is_for_the_call(argument: &FnArg, errors: &mut Errors) {
+    if let FnArg::Typed(argument) = argument
+        && let Type::Reference(TypeReference { lifetime: Some(lifetime), .. }) = ungroup(&argument.ty)
+        && lifetime.ident == "static"
+    {
+        errors.at(lifetime, "context and record are borrowed for the call only: take the lifetime away");
+    }
+}
+
+/// A program that calls itself would be a recursive function with device functions in it, which OptiX refuses (guide 13).
+/// What is only found with types, such as a helper that calls back, is found in the PTX.
+fn calls_itself(function: &ItemFn, errors: &mut Errors) {
+    let ident = &function.sig.ident;
+    let mut calls = Vec::new();
+    let bound = mentions(function.sig.inputs.iter().map(|a| a.to_token_stream()).collect(), &ident.to_string());
+    if !bound && only_calls(function.block.to_token_stream(), ident, &mut calls) {
+        for call in calls {
+            errors.at(
+                call,
+                format!(
+                    "`{ident}` calls itself, but device programs can't be recursive functions (guide 13): write a loop, or \
+                     trace a ray whose program goes on"
+                ),
+            );
+        }
+    }
+}
+
+/// Collects the calls `ident(..)`. False if the name is used otherwise, so that it may be another's.
+fn only_calls(tokens: TokenStream, ident: &Ident, calls: &mut Vec<Ident>) -> bool {
+    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+    tokens.iter().enumerate().all(|(i, token)| match token {
+        TokenTree::Group(group) => only_calls(group.stream(), ident, calls),
+        TokenTree::Ident(found) if found == ident => {
+            let follows = |c: char| i > 0 && matches!(&tokens[i - 1], TokenTree::Punct(p) if p.as_char() == c);
+            if follows('.') || follows(':') {
+                return true;
+            }
+            let after_fn = i > 0 && matches!(&tokens[i - 1], TokenTree::Ident(word) if word == "fn");
+            let called = matches!(tokens.get(i + 1), Some(TokenTree::Group(g)) if g.delimiter() == Delimiter::Parenthesis);
+            if called && !after_fn {
+                calls.push(found.clone());
+            }
+            called && !after_fn
+        }
+        _ => true,
+    })
+}
+
+/// A part must say which payload it is of: `R::AtMiss` for a type parameter `R` would be of any.
+fn names_its_payload(part: &Type, generics: &Generics, errors: &mut Errors) {
+    let Type::Path(path) = ungroup(part) else { return };
+    let first = path.path.segments.first();
+    let parameter = generics.type_params().any(|p| first.is_some_and(|s| s.ident == p.ident));
+    if path.qself.is_some() || parameter {
+        errors.at(
+            part,
+            "a program names the payload it is for: take and return a struct such as `RadianceAtClosestHit`; a program for \
+             any payload leaves it out",
+        );
+    }
+}
+
+/// Whether the function can only be in an impl or a trait, where there is no room for the type that stands for it.
+pub fn is_in_impl(sig: &syn::Signature) -> bool {
+    sig.receiver().is_some() || mentions(sig.to_token_stream(), "Self")
+}
+
+/// What `pipeline!` knows about a program of the kind.
+fn known(kind: Kind) -> &'static str {
+    match kind {
+        Kind::RayGen | Kind::Miss => "its pipeline and nothing else",
+        Kind::ClosestHit | Kind::AnyHit => "its pipeline, what hits carry and the record",
+        Kind::Intersection => "its pipeline and the record",
+    }
+}
+
 fn kind_generic(kind: Kind) -> &'static str {
     match kind {
         Kind::RayGen => "&RayGen<P>",
         Kind::Miss => "&Miss<P>",
-        Kind::ClosestHit => "&ClosestHit<P, Triangles>",
-        Kind::AnyHit => "&AnyHit<P, Triangles>",
-        Kind::Intersection => "&Intersection<P, BallHit>",
+        Kind::ClosestHit => "&ClosestHit<P, A>, &R",
+        Kind::AnyHit => "&AnyHit<P, A>, &R",
+        Kind::Intersection => "&Intersection<P, BallHit>, &R",
     }
 }
 
@@ -202,15 +330,6 @@ fn argument_name(kind: Kind) -> &'static str {
         Kind::ClosestHit | Kind::AnyHit => "hit",
         Kind::Intersection => "isect",
     }
-}
-
-/// Whether the identifier occurs.
-fn mentions(tokens: TokenStream, ident: &Ident) -> bool {
-    tokens.into_iter().any(|token| match token {
-        TokenTree::Ident(other) => other == *ident,
-        TokenTree::Group(group) => mentions(group.stream(), ident),
-        _ => false,
-    })
 }
 
 fn qualifiers(kind: Kind, function: &ItemFn, errors: &mut Errors) {
@@ -354,7 +473,7 @@ fn record_and_payload(kind: Kind, arguments: &[&Type], errors: &mut Errors) -> (
                 };
                 errors.at(ty, message);
             }
-            Type::ImplTrait(_) => errors.at(ty, "a program's arguments have named types: write a type parameter instead of `impl`"),
+            Type::ImplTrait(_) => errors.at(ty, "a program's arguments have named types: name its part of the payload"),
             _ if kind == Kind::RayGen => errors.at(
                 ty,
                 "a ray-generation program gets no payload; its record is taken by reference: `record: &T`",
@@ -440,10 +559,24 @@ fn is_part(kind: Kind, ty: &Type, received: bool, errors: &mut Errors) -> bool {
         Type::Path(path) => path.path.segments.last().map(|s| s.ident.to_string()),
         _ => None,
     };
+    let (phrase, does) = (kind.phrase(), if received { "receives" } else { "returns" });
+    match last.as_deref() {
+        Some("Decision") if !received => {
+            errors.at(ty, format!("{phrase} decides nothing about a hit: only an any-hit program returns `Decision`"));
+            return false;
+        }
+        Some(name @ ("Option" | "Result")) if !received => {
+            errors.at(
+                ty,
+                format!("{phrase} writes its part of the payload on every path: return the struct `..{suffix}` itself, without `{name}`"),
+            );
+            return false;
+        }
+        _ => {}
+    }
     if last.as_ref().is_some_and(|name| name.ends_with(&suffix)) {
         return true;
     }
-    let (phrase, does) = (kind.phrase(), if received { "receives" } else { "returns" });
     let of_another = last.as_ref().and_then(|name| {
         let parties = ["Caller", "ClosestHit", "Miss", "AnyHit", "Intersection"];
         let suffixes = parties.iter().flat_map(|party| [format!("At{party}"), format!("From{party}")]);
@@ -454,8 +587,8 @@ fn is_part(kind: Kind, ty: &Type, received: bool, errors: &mut Errors) -> bool {
             format!("{phrase} {does} `{payload}{suffix}` of payload `{payload}`: this is another party's part")
         }
         _ if received => format!(
-            "{phrase} {does} its part of the payload, a struct `..{suffix}` that `#[derive(Payload)]` makes; if this is its \
-             record, take it by reference: write `&` before the type"
+            "{phrase} {does} its part of the payload, a struct `..{suffix}` that `#[derive(Payload)]` makes, under its own \
+             name; if this is its record, take it by reference: write `&` before the type"
         ),
         _ => format!(
             "{phrase} {does} its part of the payload, a struct `..{suffix}` that `#[derive(Payload)]` makes, or nothing"

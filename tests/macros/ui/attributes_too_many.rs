@@ -1,3 +1,5 @@
+// G031, C020: a hit carries eight words at most
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, Attributes)]

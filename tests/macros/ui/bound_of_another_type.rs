@@ -1,3 +1,5 @@
+// C039, C041: a bound value has the type of its field, and only fields with #[bound] have one
+
 use optix_device_rs::prelude::*;
 
 use optix_device_rs::params::Bound;

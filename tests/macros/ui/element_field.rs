@@ -1,3 +1,5 @@
+// T04: any bytes of a buffer are a value of its elements
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, Element)]

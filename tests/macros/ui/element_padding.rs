@@ -1,3 +1,5 @@
+// T04: a buffer has no bytes that belong to no field
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, Element)]

@@ -1,3 +1,5 @@
+// T04: host and device agree on the layout
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, Element)]

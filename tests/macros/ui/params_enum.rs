@@ -1,3 +1,5 @@
+// C034: launch parameters are one struct
+
 use optix_device_rs::prelude::*;
 
 #[launch_params]

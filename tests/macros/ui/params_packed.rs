@@ -1,3 +1,5 @@
+// T04: fields are where programs can load them
+
 use optix_device_rs::prelude::*;
 
 #[launch_params]

@@ -1,3 +1,5 @@
+// C034: launch parameters are read by name
+
 use optix_device_rs::prelude::*;
 
 #[launch_params]

@@ -1,3 +1,5 @@
+// H024: any-hit programs may run first
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// T01: a field says once who reads and writes it
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// T01: parties stand in brackets
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// H024: what the caller reads is written when the ray misses
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

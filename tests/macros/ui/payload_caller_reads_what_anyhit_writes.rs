@@ -1,3 +1,5 @@
+// H024: any-hit programs do not run for every ray
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// H024: only the caller comes before the closest-hit program on every path
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// H024: any-hit programs do not run for every ray that hits
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

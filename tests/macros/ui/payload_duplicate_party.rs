@@ -1,3 +1,5 @@
+// T01: a party is named once
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// T01: a list names somebody
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

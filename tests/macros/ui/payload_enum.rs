@@ -1,3 +1,5 @@
+// H012: a payload is a struct of fields
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

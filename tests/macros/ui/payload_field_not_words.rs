@@ -1,3 +1,5 @@
+// H001: a payload is made of 32-bit words
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

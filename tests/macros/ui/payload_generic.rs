@@ -1,3 +1,5 @@
+// H012, H029: a payload type is known where it is declared
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

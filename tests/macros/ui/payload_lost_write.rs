@@ -1,3 +1,5 @@
+// H040: what the last program of a ray writes, the caller reads
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

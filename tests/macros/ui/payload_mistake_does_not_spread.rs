@@ -1,3 +1,5 @@
+// T02, H024: one mistake in a payload is one error
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

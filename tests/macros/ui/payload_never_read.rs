@@ -1,3 +1,5 @@
+// H040: a field that nobody reads takes registers for nothing
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// H024, H040: a field that nobody writes has no value
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// H017: every field says who reads and writes it
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// T02, H017, H024: all mistakes of a payload are reported at once
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

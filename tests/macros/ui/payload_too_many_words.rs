@@ -1,3 +1,5 @@
+// H001, H040: a payload has 32 words at most
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

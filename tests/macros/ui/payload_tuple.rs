@@ -1,3 +1,5 @@
+// H012: a payload's fields have names
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

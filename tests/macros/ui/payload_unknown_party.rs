@@ -1,3 +1,5 @@
+// H017: only parties of a ray read and write
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

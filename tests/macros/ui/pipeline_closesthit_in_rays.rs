@@ -1,3 +1,5 @@
+// C048: hit programs belong to a hit group
+
 mod common;
 use common::*;
 

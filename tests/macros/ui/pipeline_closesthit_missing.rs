@@ -1,3 +1,5 @@
+// C049, H024: a closest-hit program may be left out where the payload asks nothing of it
+
 mod common;
 use common::*;
 

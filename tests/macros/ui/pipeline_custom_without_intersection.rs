@@ -1,3 +1,5 @@
+// C050: custom primitives have an intersection program for each ray type
+
 mod common;
 use common::*;
 

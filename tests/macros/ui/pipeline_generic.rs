@@ -1,3 +1,5 @@
+// T07: a pipeline is one set of programs
+
 mod common;
 use common::*;
 

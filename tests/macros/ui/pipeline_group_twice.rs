@@ -1,3 +1,5 @@
+// T07, D027: a material has one hit group
+
 mod common;
 use common::*;
 

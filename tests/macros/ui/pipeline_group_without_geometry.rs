@@ -1,3 +1,5 @@
+// C050, T01: a material is on a kind of geometry
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// C020, H033: the intersection programs of a hit group report the same attributes
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// T01: a part of a pipeline is there once
+
 mod common;
 use common::*;
 

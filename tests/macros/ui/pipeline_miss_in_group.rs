@@ -1,3 +1,5 @@
+// C048: a miss program belongs to the ray type
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// D017, H024: a miss program may be left out where the payload asks nothing of it
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// T01: what is missing is named
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// T02: one mistake in a pipeline is one error
+
 use optix_device_rs::prelude::*;
 
 #[launch_params]

@@ -1,3 +1,5 @@
+// H013, D024, D025: a pipeline has eight ray types at most
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// C034: a pipeline has launch parameters
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// D012: a launch begins with a ray-generation program
+
 mod common;
 use common::*;
 

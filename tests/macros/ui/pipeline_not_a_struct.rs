@@ -1,3 +1,5 @@
+// T01: a pipeline has a name
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// C034, C035: launch parameters are a struct with #[launch_params]
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// H024: a program writes what its payload says
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// D017, G012, H034: a program traces only ray types of its pipeline
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// C020, G054: a program reads the attributes that its hit group reports
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// C013, C047: a program is listed where its kind belongs
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// H032, H034: the programs of a ray type have its payload
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// C035, T07: a program of one pipeline is no program of another
+
 mod common;
 use common::*;
 

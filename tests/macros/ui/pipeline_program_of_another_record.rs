@@ -1,3 +1,5 @@
+// D009: the programs of a material read its record
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// T01: a program is named without its types
+
 mod common;
 use common::*;
 

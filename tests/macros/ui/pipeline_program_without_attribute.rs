@@ -1,3 +1,5 @@
+// C013: a program has its kind's attribute
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// D027: a hit group says what happens to every ray type
+
 mod common;
 use common::*;
 

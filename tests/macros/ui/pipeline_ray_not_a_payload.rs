@@ -1,3 +1,5 @@
+// H012, H034: a ray type is named by its payload
+
 mod common;
 use common::*;
 

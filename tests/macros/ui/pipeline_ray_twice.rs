@@ -1,3 +1,5 @@
+// D024, H034: a ray type is there once
+
 mod common;
 use common::*;
 

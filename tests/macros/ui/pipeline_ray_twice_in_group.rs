@@ -1,3 +1,5 @@
+// D027, T01: a ray type is in a hit group once
+
 mod common;
 use common::*;
 

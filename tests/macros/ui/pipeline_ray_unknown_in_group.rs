@@ -1,3 +1,5 @@
+// D024: a hit group has programs for ray types of its pipeline
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// T01: a program is listed once
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// C057, G013: trace calls nest 31 deep at most
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// C050: triangles are intersected by hardware
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// C050, T01: a kind of geometry that there is
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// T01: a part of a pipeline that there is
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// C047: a kind of program that hit groups have
+
 mod common;
 use common::*;
 

@@ -1,3 +1,5 @@
+// G076, H005: an any-hit program says what happens to the hit
+
 use optix_device_rs::prelude::*;
 
 #[anyhit]

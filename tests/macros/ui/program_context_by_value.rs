@@ -1,3 +1,5 @@
+// T06: a context is borrowed for the call
+
 use optix_device_rs::prelude::*;
 
 #[raygen]

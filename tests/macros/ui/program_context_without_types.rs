@@ -1,3 +1,5 @@
+// T06: a context is of a pipeline
+
 use optix_device_rs::prelude::*;
 
 #[raygen]

@@ -1,3 +1,5 @@
+// H024: a program writes every field it must
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// H024: a program writes its fields on every path
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

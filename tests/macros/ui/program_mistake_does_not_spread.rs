@@ -1,3 +1,5 @@
+// T02: a mistake in a program is not reported by its pipeline
+
 mod common;
 use common::*;
 

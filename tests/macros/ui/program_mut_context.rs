@@ -1,3 +1,5 @@
+// T06: a context is shared
+
 use optix_device_rs::prelude::*;
 
 #[raygen]

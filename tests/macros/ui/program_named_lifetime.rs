@@ -1,3 +1,5 @@
+// T06: context and record are borrowed for the call
+
 use optix_device_rs::prelude::*;
 
 #[closesthit]

@@ -1,3 +1,5 @@
+// T06: a program takes its context
+
 use optix_device_rs::prelude::*;
 
 #[closesthit]

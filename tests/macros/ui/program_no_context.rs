@@ -1,3 +1,5 @@
+// T06: a program takes its context first
+
 use optix_device_rs::prelude::*;
 
 #[miss]

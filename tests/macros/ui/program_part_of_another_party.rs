@@ -1,3 +1,5 @@
+// H022: a program receives its own part of the payload
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

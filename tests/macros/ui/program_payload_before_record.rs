@@ -1,3 +1,5 @@
+// T06: context, record, payload: in this order
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// H002: a payload goes in and out by value
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

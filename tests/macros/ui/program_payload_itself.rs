@@ -1,3 +1,5 @@
+// H022: a program receives its part of the payload, not all of it
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

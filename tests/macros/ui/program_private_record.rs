@@ -1,3 +1,5 @@
+// T06, D009: who may name a program may name its record
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, SbtRecord)]

@@ -1,3 +1,5 @@
+// T06: a program is an ordinary function
+
 use optix_device_rs::prelude::*;
 
 #[raygen]

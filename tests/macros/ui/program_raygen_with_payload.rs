@@ -1,3 +1,5 @@
+// H007, H040: a ray-generation program has no payload
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

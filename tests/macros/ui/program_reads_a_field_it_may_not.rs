@@ -1,3 +1,5 @@
+// H022, H040: a program reads only fields it may
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// D008: a record is borrowed
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

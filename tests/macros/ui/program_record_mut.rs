@@ -1,3 +1,5 @@
+// D008: a record is read-only
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, SbtRecord)]

@@ -1,3 +1,5 @@
+// D004, D009: a record is a struct that derives SbtRecord
+
 use optix_device_rs::prelude::*;
 
 pub struct Paint {

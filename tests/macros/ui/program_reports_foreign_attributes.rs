@@ -1,3 +1,5 @@
+// G029, C020: an intersection program reports its own attributes
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, Attributes)]

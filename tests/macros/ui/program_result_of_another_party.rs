@@ -1,3 +1,5 @@
+// H022: a program returns its own part of the payload
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// H033: a program has one payload
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// H024: a program returns what its payload says it writes
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// T06: a program takes context, record and payload
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// H034, G012: a program traces only ray types of its pipeline
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]

@@ -1,3 +1,5 @@
+// T06: a program's parameters follow from its pipeline
+
 use optix_device_rs::prelude::*;
 
 #[closesthit]

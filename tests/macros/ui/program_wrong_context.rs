@@ -1,3 +1,5 @@
+// C013: context and attribute are of one kind
+
 use optix_device_rs::prelude::*;
 
 #[closesthit]

@@ -1,3 +1,5 @@
+// D003: a record is aligned to 16 bytes at most
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, SbtRecord)]

@@ -1,3 +1,5 @@
+// D004, T04: a record is plain data
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy)]

@@ -1,3 +1,5 @@
+// D004, D009: a record has one layout
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, SbtRecord)]

@@ -1,3 +1,5 @@
+// T05: an alias does not hide a view
+
 use optix_device_rs::prelude::*;
 
 type Texture = Slice<Vec4>;

@@ -1,3 +1,5 @@
+// D004: a record is copied to the device
+
 use optix_device_rs::prelude::*;
 
 #[derive(SbtRecord)]

@@ -1,3 +1,5 @@
+// T04: programs read fields by reference
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, SbtRecord)]

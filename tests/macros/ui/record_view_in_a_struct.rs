@@ -1,3 +1,5 @@
+// T05: a struct does not hide a view
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, DeviceData)]

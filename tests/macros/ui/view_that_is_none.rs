@@ -1,3 +1,5 @@
+// T05: plain data is no view
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, SbtRecord)]

@@ -1,3 +1,5 @@
+// H001: a value in registers has an encoding in 32-bit words
+
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, Words)]

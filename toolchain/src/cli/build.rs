@@ -8,6 +8,13 @@ use optix_toolchain::{Shaders, Workspace};
 use super::{Failure, Outcome, current_dir};
 
 pub(super) fn run(arch: &str, path: Option<PathBuf>) -> Outcome {
+    let (crates, area) = crates(path)?;
+    crates.iter().try_for_each(|path| build(path, arch, &area))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The shader crate in `path`, or all of the workspace, and the folder for intermediate files.
+pub(super) fn crates(path: Option<PathBuf>) -> Result<(Vec<PathBuf>, PathBuf), Failure> {
     let workspace = match &path {
         Some(path) => Workspace::of(path)?,
         None => Workspace::of(&current_dir()?)?,
@@ -23,9 +30,7 @@ pub(super) fn run(arch: &str, path: Option<PathBuf>) -> Outcome {
             workspace.root.display()
         )));
     }
-    let area = workspace.target_dir.join("optix");
-    crates.iter().try_for_each(|path| build(path, arch, &area))?;
-    Ok(ExitCode::SUCCESS)
+    Ok((crates, workspace.target_dir.join("optix")))
 }
 
 fn build(path: &Path, arch: &str, area: &Path) -> Result<(), Failure> {

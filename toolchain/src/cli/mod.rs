@@ -11,6 +11,7 @@ mod libraries;
 mod new;
 mod setup;
 mod test;
+mod verify;
 
 use std::fmt;
 use std::path::PathBuf;
@@ -43,6 +44,24 @@ enum Action {
         #[arg(long = "crate", value_name = "PATH")]
         path: Option<PathBuf>,
     },
+    /// Prove that the PTX of shader crates keeps the contracts of their pipelines. Exit code 1 if it does not.
+    ///
+    /// Compiles them, and compares entries, launch parameters, payloads and trace calls with what the host computes
+    /// from the same declarations; finds local memory and calls. Without --crate, every shader crate of the workspace.
+    Verify {
+        /// The oldest GPU architecture to run on.
+        #[arg(long, value_name = "sm_XX", default_value = optix_toolchain::DEFAULT_ARCH)]
+        arch: String,
+        /// The folder of one shader crate.
+        #[arg(long = "crate", value_name = "PATH")]
+        path: Option<PathBuf>,
+        /// A function that may be called instead of inlined, by a part of its path. May be repeated.
+        #[arg(long = "allow-function", value_name = "NAME")]
+        allowed: Vec<String>,
+        /// Print each finding as a JSON object on one line, and nothing else.
+        #[arg(long)]
+        json: bool,
+    },
     /// Set up, then run every test of the workspace; those that need a GPU too if OptiX is here.
     Test {
         /// Further arguments of `cargo test --workspace`.
@@ -67,6 +86,7 @@ pub(crate) fn main() -> ExitCode {
         Action::Doctor => doctor::run(),
         Action::Setup => setup::run().map(|_| ExitCode::SUCCESS),
         Action::Build { arch, path } => build::run(&arch, path),
+        Action::Verify { arch, path, allowed, json } => verify::run(&verify::Options { arch, allowed, json }, path),
         Action::Test { args } => test::run(&args),
         Action::New { path } => new::run(&path),
     };

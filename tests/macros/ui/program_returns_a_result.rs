@@ -1,3 +1,5 @@
+// H024: a program writes its payload on every path
+
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]
@@ -8,10 +10,11 @@ pub struct Radiance {
     pub rng: Pcg32,
 }
 
-#[anyhit]
-pub fn alpha<P: HasRay<Radiance>>(hit: &AnyHit<P, Triangles>) -> Decision {
-    hit.trace::<Radiance>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), RadianceFromCaller { rng: Pcg32::new(1, 2) });
-    Decision::Accept
+type Result<T> = core::result::Result<T, ()>;
+
+#[miss]
+pub fn sky<P: Pipeline>(_: &Miss<P>) -> Result<RadianceFromMiss> {
+    Ok(RadianceFromMiss { light: Vec3::ONE })
 }
 
 fn main() {}

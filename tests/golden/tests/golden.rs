@@ -1,0 +1,119 @@
+//! Nothing is paid at run time: typed programs beside their twins, instruction by instruction.
+//!
+//! `OPTIX_GOLDEN=write cargo test -p optix-golden-tests` writes `expected/` anew.
+
+use optix_golden_tests::{entries, multiset, normalised};
+use optix_toolchain::{Built, DeviceCompiler, Shaders};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+/// The programs, by the last part of the raw entry's name.
+const PROGRAMS: [&str; 11] = [
+    "__raygen__index",
+    "__raygen__words",
+    "__raygen__bytes",
+    "__raygen__wide",
+    "__raygen__caller",
+    "__closesthit__shade",
+    "__anyhit__cut_out",
+    "__closesthit__corners",
+    "__intersection__ball",
+    "__closesthit__ball_shade",
+    "__miss__sky",
+];
+
+/// Those whose instructions are in one order too. The others differ in the order of instructions that do not depend on
+/// each other: LLVM keeps that of the source, and glam's vectors go through theirs from the last component.
+const IN_ORDER: [&str; 2] = ["__raygen__bytes", "__anyhit__cut_out"];
+
+/// Both crates and the compiler that made them; `None`, said on standard error, without a device compiler.
+fn compiled(test: &str) -> Option<(DeviceCompiler, Built, Built)> {
+    let compiler = match DeviceCompiler::find() {
+        Ok(compiler) => compiler,
+        Err(error) => {
+            eprintln!("{test}: not run: {error}");
+            return None;
+        }
+    };
+    let area = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("optix");
+    let compile = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+        Shaders::new(path).compile_in(&area).expect("it compiles")
+    };
+    Some((compiler, compile("typed"), compile("raw")))
+}
+
+fn typed(built: &Built, program: &str) -> Vec<String> {
+    // `__raygen__index` is `__raygen__Golden_index_..`.
+    let begin = program.rfind("__").expect("an entry's name") + 2;
+    let prefix = format!("{}Golden_{}_", &program[..begin], &program[begin..]);
+    let found: Vec<_> = entries(&built.text).into_iter().filter(|(name, _)| name.starts_with(&prefix)).collect();
+    // `ball` is the beginning of `ball_shade` too, but that is of another kind.
+    assert_eq!(found.len(), 1, "{prefix}");
+    normalised(found[0].1, symbol(built))
+}
+
+fn raw(built: &Built, program: &str) -> Vec<String> {
+    let body = entries(&built.text).into_iter().find(|(name, _)| *name == program).expect(program).1;
+    normalised(body, symbol(built))
+}
+
+/// The variable of the parameters.
+fn symbol(built: &Built) -> &str {
+    let declared = built.text.lines().find(|line| line.starts_with(".visible .const")).expect("parameters");
+    declared.split_whitespace().last().and_then(|name| name.split('[').next()).expect("a name")
+}
+
+#[test]
+fn typed_programs_are_what_one_would_write_by_hand() {
+    let Some((_, typed_crate, raw_crate)) = compiled("typed_programs_are_what_one_would_write_by_hand") else {
+        return;
+    };
+    assert_eq!(typed_crate.entries.len(), PROGRAMS.len(), "{:?}", typed_crate.entries);
+    let mut differences = String::new();
+    for program in PROGRAMS {
+        let (typed, raw) = (typed(&typed_crate, program), raw(&raw_crate, program));
+        let same = if IN_ORDER.contains(&program) { typed == raw } else { multiset(&typed) == multiset(&raw) };
+        // Also when a program could move to the stricter list.
+        if !same || typed == raw && !IN_ORDER.contains(&program) {
+            let _ = writeln!(differences, "{program}: typed {}, raw {}", typed.len(), raw.len());
+            for i in 0..typed.len().max(raw.len()) {
+                let line = |of: &[String]| of.get(i).cloned().unwrap_or_default();
+                let mark = if typed.get(i) == raw.get(i) { ' ' } else { '|' };
+                let _ = writeln!(differences, "    {:60} {mark} {}", line(&typed), line(&raw));
+            }
+        }
+    }
+    assert!(differences.is_empty(), "typed programs differ from their twins:\n{differences}");
+}
+
+#[test]
+fn typed_programs_are_as_expected() {
+    let Some((compiler, typed_crate, _)) = compiled("typed_programs_are_as_expected") else { return };
+    let header = format!("// rustc {}, LLVM {}, {}", release(&compiler), compiler.llvm, optix_toolchain::DEFAULT_ARCH);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("expected");
+    let write = std::env::var_os("OPTIX_GOLDEN").is_some_and(|value| value == "write");
+    for program in PROGRAMS {
+        let file = folder.join(format!("{}.ptx", program.trim_start_matches('_').replace("__", "-")));
+        let text = format!("{header}\n{}\n", typed(&typed_crate, program).join("\n"));
+        if write {
+            fs::write(&file, &text).expect("writable");
+            continue;
+        }
+        let expected = fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+        let of = expected.lines().next().unwrap_or_default();
+        if of != header {
+            eprintln!(
+                "typed_programs_are_as_expected: not compared: expected/ is of \"{of}\", the compiler here is \"{header}\""
+            );
+            return;
+        }
+        assert!(text == expected, "{} differs; now it is:\n{text}", file.display());
+    }
+}
+
+/// `1.96.0` in what `rustc -vV` prints.
+fn release(compiler: &DeviceCompiler) -> &str {
+    compiler.version.lines().find_map(|line| line.strip_prefix("release: ")).unwrap_or("unknown")
+}

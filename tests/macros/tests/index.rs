@@ -1,0 +1,170 @@
+//! `docs/contracts.md`: which rule has which tests, made from the first lines of the cases in `ui`.
+//!
+//! `CONTRACTS=overwrite cargo test -p optix-macro-tests --test index` writes the page anew.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A rule of `checklist.tsv`.
+struct Rule {
+    id: String,
+    text: String,
+    /// Why no test covers it; empty if one does.
+    open: String,
+}
+
+/// A case that must not compile.
+struct Case {
+    name: String,
+    ids: Vec<String>,
+    what: String,
+    source: String,
+    /// The program that compiles and has the case put right.
+    twin: String,
+}
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Name and text of the Rust files of a folder, by name.
+fn sources(folder: &Path) -> BTreeMap<String, String> {
+    let files = fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
+    let rust = files.filter(|path| path.extension().is_some_and(|e| e == "rs"));
+    rust.map(|path| (path.file_stem().unwrap().to_str().unwrap().to_owned(), fs::read_to_string(&path).unwrap())).collect()
+}
+
+/// The lines of a table, without comments.
+fn table(name: &str) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(root().join(name)).unwrap();
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    lines.map(|line| line.split('\t').map(str::to_owned).collect()).collect()
+}
+
+fn rules() -> Vec<Rule> {
+    let rule = |line: Vec<String>| match <[String; 3]>::try_from(line) {
+        Ok([id, text, open]) => Rule { id, text, open },
+        Err(line) => panic!("three columns expected: {line:?}"),
+    };
+    table("checklist.tsv").into_iter().map(rule).collect()
+}
+
+fn cases() -> Vec<Case> {
+    let pass = sources(&root().join("ui/pass"));
+    let case = |(name, source): (String, String)| {
+        let first = source.lines().next().unwrap_or_default();
+        let (ids, what) = first
+            .strip_prefix("// ")
+            .and_then(|line| line.split_once(": "))
+            .unwrap_or_else(|| panic!("ui/{name}.rs begins with `// H024, H022: what`, not with `{first}`"));
+        let module = format!("\nmod {name} {{\n");
+        let twin = pass.iter().find(|(_, text)| text.contains(&module));
+        let twin = twin.unwrap_or_else(|| panic!("no program in ui/pass has `mod {name}`, the case put right")).0.clone();
+        Case { ids: ids.split(", ").map(str::to_owned).collect(), what: what.to_owned(), twin, name, source }
+    };
+    sources(&root().join("ui")).into_iter().map(case).collect()
+}
+
+/// The page.
+fn page(rules: &[Rule], cases: &[Case]) -> String {
+    let mut page = format!(
+        "# Contracts: what is wrong does not compile\n\n\
+         Generated from the first lines of the cases in `tests/macros/ui` by `CONTRACTS=overwrite cargo test -p \
+         optix-macro-tests --test index`; do not edit.\n\n\
+         {} cases must fail, each with the message beside it (`.stderr`); each is put right in a module of the same name \
+         in a program that must compile. Ids C, D, G, H and I are items of the guide's checklist, in our words; T are \
+         rules of this toolkit.\n\n\
+         ## Rules with tests\n\n| rule | what holds | does not compile | put right in |\n| --- | --- | --- | --- |\n",
+        cases.len()
+    );
+    for rule in rules.iter().filter(|rule| rule.open.is_empty()) {
+        let of_rule = cases.iter().filter(|case| case.ids.contains(&rule.id));
+        let fails: Vec<_> =
+            of_rule.clone().map(|case| format!("[{0}](../tests/macros/ui/{0}.rs)", case.name)).collect();
+        let mut passes: Vec<_> = of_rule.map(|case| format!("[{0}](../tests/macros/ui/pass/{0}.rs)", case.twin)).collect();
+        passes.sort();
+        passes.dedup();
+        let _ = writeln!(page, "| {} | {} | {} | {} |", rule.id, rule.text, fails.join(", "), passes.join(", "));
+    }
+    page.push_str("\n## Cases\n\n| case | what holds | rules |\n| --- | --- | --- |\n");
+    for case in cases {
+        let _ =
+            writeln!(page, "| [{0}](../tests/macros/ui/{0}.stderr) | {1} | {2} |", case.name, case.what, case.ids.join(", "));
+    }
+    page.push_str(
+        "\n## Device functions\n\nWhich kinds of program have which method; every other call is among the cases above.\n\n\
+         | method | OptiX | raygen | intersection | anyhit | closesthit | miss |\n| --- | --- | --- | --- | --- | --- | --- |\n",
+    );
+    for line in table("device_functions.tsv") {
+        let marks: Vec<_> = line[2..].iter().map(|mark| if mark == "1" { "yes" } else { "" }).collect();
+        let _ = writeln!(page, "| `{}` | `{}` | {} |", line[0], line[1], marks.join(" | "));
+    }
+    page.push_str(
+        "\n## Rules without a test of this kind\n\nItems that the checklist says a compiler can check, and why no case \
+         covers them.\n\n| rule | what holds | why not here |\n| --- | --- | --- |\n",
+    );
+    for rule in rules.iter().filter(|rule| !rule.open.is_empty()) {
+        let _ = writeln!(page, "| {} | {} | {} |", rule.id, rule.text, rule.open);
+    }
+    page
+}
+
+#[test]
+fn contracts() {
+    let (rules, cases) = (rules(), cases());
+    for case in &cases {
+        for id in &case.ids {
+            let rule = rules.iter().find(|rule| rule.id == *id);
+            let rule = rule.unwrap_or_else(|| panic!("ui/{}.rs names `{id}`, which checklist.tsv does not have", case.name));
+            assert!(rule.open.is_empty(), "ui/{}.rs covers {id}: checklist.tsv says `{}`", case.name, rule.open);
+        }
+    }
+    for rule in rules.iter().filter(|rule| rule.open.is_empty()) {
+        let covered = cases.iter().any(|case| case.ids.contains(&rule.id));
+        assert!(covered, "no case covers {}: write one, or say why not in checklist.tsv", rule.id);
+    }
+    let (path, page) = (root().join("../../docs/contracts.md"), page(&rules, &cases));
+    if std::env::var("CONTRACTS").is_ok_and(|value| value == "overwrite") {
+        fs::write(path, page).unwrap();
+    } else {
+        let stale = fs::read_to_string(path).unwrap_or_default() != page;
+        assert!(!stale, "docs/contracts.md is stale: run this test with `CONTRACTS=overwrite`");
+    }
+}
+
+/// Every message is checked in: without it trybuild would accept any.
+#[test]
+fn messages() {
+    for case in cases() {
+        let path = root().join(format!("ui/{}.stderr", case.name));
+        assert!(path.exists(), "ui/{}.stderr is missing: `TRYBUILD=overwrite cargo test -p optix-macro-tests`", case.name);
+    }
+    for path in fs::read_dir(root().join("ui")).unwrap().map(|file| file.unwrap().path()) {
+        let source = path.with_extension("rs");
+        assert!(path.is_dir() || source.exists(), "{} belongs to no case", path.display());
+    }
+}
+
+/// Every device function is tried from every kind of program: it compiles where the table has a 1, else it does not.
+#[test]
+fn device_functions() {
+    let kinds = ["raygen", "intersection", "anyhit", "closesthit", "miss"];
+    let allowed = &sources(&root().join("ui/pass"))["device_functions"];
+    let cases = cases();
+    for line in table("device_functions.tsv") {
+        let (method, marks) = (&line[0], &line[2..]);
+        let called = |text: &str| text.contains(&format!("at.{method}(")) || text.contains(&format!("at.{method}::<"));
+        for (kind, mark) in kinds.into_iter().zip(marks) {
+            let program = |text: &str| text.contains(&format!("#[{kind}]\n"));
+            if mark == "1" {
+                let tried = allowed.split("\n}\n").any(|text| program(text) && called(text));
+                assert!(tried, "ui/pass/device_functions.rs does not call `{method}` from {kind}");
+            } else {
+                let tried = cases.iter().any(|case| program(&case.source) && called(&case.source));
+                assert!(tried, "no case calls `{method}` from {kind}, where it is not allowed");
+            }
+        }
+    }
+}

@@ -1,0 +1,14 @@
+// G076, H005: an any-hit program returns its decision, so its payload counts
+
+use optix_device_rs::prelude::*;
+
+#[anyhit]
+pub fn program<P: Pipeline>(at: &AnyHit<P, Triangles>) -> Decision {
+    if at.hit_kind() == 254 {
+        at.ignore_intersection();
+    }
+    at.terminate_ray();
+    Decision::Accept
+}
+
+fn main() {}

@@ -1,0 +1,170 @@
+//! The cases about callers and views, put right: one module each, with the name of the case.
+#![allow(dead_code, unused)]
+
+mod caller_gives_another_payload {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Radiance {
+        #[payload(write(closesthit, miss), read(caller))]
+        pub light: Vec3,
+        #[payload(write(caller, closesthit), read(closesthit, caller))]
+        pub rng: Pcg32,
+    }
+
+    #[derive(Payload)]
+    pub struct Shadow {
+        #[payload(write(caller, miss), read(caller))]
+        pub visible: bool,
+    }
+
+    #[raygen]
+    pub fn camera<P: HasRay<Radiance> + HasRay<Shadow>>(rg: &RayGen<P>) {
+        let start = ShadowFromCaller { visible: false };
+        let _ = rg.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), start);
+    }
+}
+
+mod caller_gives_nothing {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Radiance {
+        #[payload(write(closesthit, miss), read(caller))]
+        pub light: Vec3,
+        #[payload(write(caller, closesthit), read(closesthit, caller))]
+        pub rng: Pcg32,
+    }
+
+    #[raygen]
+    pub fn camera<P: HasRay<Radiance>>(rg: &RayGen<P>) {
+        let _ = rg.trace::<Radiance>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), RadianceFromCaller { rng: Pcg32::new(1, 2) });
+    }
+}
+
+mod caller_gives_too_little {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Radiance {
+        #[payload(write(closesthit, miss), read(caller))]
+        pub light: Vec3,
+        #[payload(write(caller, closesthit), read(closesthit, caller))]
+        pub rng: Pcg32,
+    }
+
+    #[raygen]
+    pub fn camera<P: HasRay<Radiance>>(rg: &RayGen<P>) {
+        let _ = rg.trace::<Radiance>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), RadianceFromCaller { rng: Pcg32::new(1, 2) });
+    }
+}
+
+mod caller_names_no_ray {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Radiance {
+        #[payload(write(closesthit, miss), read(caller))]
+        pub light: Vec3,
+        #[payload(write(caller, closesthit), read(closesthit, caller))]
+        pub rng: Pcg32,
+    }
+
+    #[derive(Payload)]
+    pub struct Shadow {
+        #[payload(write(caller, miss), read(caller))]
+        pub visible: bool,
+    }
+
+    #[raygen]
+    pub fn camera<P: HasRay<Radiance> + HasRay<Shadow>>(rg: &RayGen<P>) {
+        let _ = rg.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+    }
+}
+
+mod caller_reads_what_does_not_come_back {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Probe {
+        #[payload(write(caller), read(closesthit))]
+        pub id: u32,
+        #[payload(write(closesthit, miss), read(caller))]
+        pub found: bool,
+    }
+
+    #[raygen]
+    pub fn camera<P: HasRay<Probe>>(rg: &RayGen<P>) {
+        let back = rg.trace::<Probe>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ProbeFromCaller { id: 7 });
+        let _ = back.found;
+    }
+}
+
+mod slice_forged {
+    use optix_device_rs::prelude::*;
+
+    pub fn table() -> Slice<u32> {
+        Slice::EMPTY
+    }
+}
+
+mod slice_of_bools {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Mask {
+        pub bits: Slice<u8>,
+    }
+}
+
+mod traversable_forged {
+    use optix_device_rs::prelude::*;
+
+    pub fn world() -> Traversable {
+        Traversable::NULL
+    }
+}
+
+mod twin_forgets_a_field {
+    use optix_device_rs::host::Buffer;
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Painted {
+        pub texels: Slice<Vec4>,
+        pub scale: f32,
+    }
+
+    pub fn paint(texels: Buffer<Vec4>) -> PaintedHost {
+        PaintedHost { texels, scale: 1.0 }
+    }
+}
+
+mod twin_of_another_element {
+    use optix_device_rs::host::Buffer;
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Painted {
+        pub texels: Slice<Vec4>,
+    }
+
+    pub fn paint(texels: Buffer<Vec4>) -> PaintedHost {
+        PaintedHost { texels }
+    }
+}
+
+mod view_that_is_none {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Lambert {
+        pub albedo: Vec3,
+    }
+}
+
+fn main() {}

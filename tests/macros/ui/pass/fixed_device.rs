@@ -1,0 +1,340 @@
+//! The cases about device functions, put right: one module each, with the name of the case.
+#![allow(dead_code, unused)]
+
+mod device_anyhit_flags_together {
+    use optix_device_rs::prelude::*;
+
+    pub fn flags() -> RayFlags {
+        RayFlags::NONE.any_hit(AnyHitMode::Disable)
+    }
+}
+
+mod device_barycentrics_of_a_ball {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct BallHit {
+        pub normal: Vec3,
+    }
+
+    #[closesthit]
+    pub fn shade<P: Pipeline>(hit: &ClosestHit<P, Triangles>) {
+        let _ = hit.barycentrics();
+        let _ = hit.face();
+        let _ = hit.vertices();
+        let _ = hit.surface_point();
+    }
+}
+
+mod device_barycentrics_of_any_hit {
+    use optix_device_rs::prelude::*;
+
+    #[anyhit]
+    pub fn cut_out<P: Pipeline>(hit: &AnyHit<P, Triangles>) -> Decision {
+        if hit.barycentrics().x > 0.5 { Decision::Ignore } else { Decision::Accept }
+    }
+}
+
+mod device_cull_flags_together {
+    use optix_device_rs::prelude::*;
+
+    pub fn flags() -> RayFlags {
+        RayFlags::NONE.cull(CullFaces::Back)
+    }
+}
+
+mod device_data_without_repr_c {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, DeviceData)]
+    #[repr(C)]
+    pub struct Pinhole {
+        pub eye: Vec3,
+    }
+}
+
+mod device_decision_by_call {
+    use optix_device_rs::prelude::*;
+
+    #[anyhit]
+    pub fn program<P: Pipeline>(at: &AnyHit<P, Triangles>) -> Decision {
+        if at.hit_kind() == 254 {
+            return Decision::Ignore;
+        }
+        Decision::Terminate
+    }
+}
+
+mod device_helper_of_another_context {
+    use optix_device_rs::prelude::*;
+
+    fn side<P>(ms: &Miss<P>) -> bool {
+        ms.world_ray_direction().x > 0.0
+    }
+
+    #[miss]
+    pub fn sky<P: Pipeline>(ms: &Miss<P>) {
+        let _ = side(ms);
+    }
+}
+
+mod device_hit_from_intersection {
+    use optix_device_rs::prelude::*;
+
+    #[anyhit]
+    pub fn program<P: Pipeline>(at: &AnyHit<P, Triangles>) -> Decision {
+        let _ = at.attributes();
+        let _ = at.hit_kind();
+        let _ = at.barycentrics();
+        let _ = at.face();
+        let _ = at.vertices();
+        Decision::Accept
+    }
+}
+
+mod device_hit_from_miss {
+    use optix_device_rs::prelude::*;
+
+    #[closesthit]
+    pub fn program<P: Pipeline>(at: &ClosestHit<P, Triangles>) {
+        let _ = at.attributes();
+        let _ = at.hit_kind();
+        let _ = at.barycentrics();
+        let _ = at.face();
+        let _ = at.vertices();
+    }
+}
+
+mod device_hit_from_raygen {
+    use optix_device_rs::prelude::*;
+
+    #[closesthit]
+    pub fn program<P: Pipeline>(at: &ClosestHit<P, Triangles>) {
+        let _ = at.attributes();
+        let _ = at.hit_kind();
+        let _ = at.barycentrics();
+        let _ = at.face();
+        let _ = at.vertices();
+    }
+}
+
+mod device_instance_id_is_optional {
+    use optix_device_rs::prelude::*;
+
+    #[closesthit]
+    pub fn shade<P: Pipeline>(hit: &ClosestHit<P, Triangles>) {
+        let _table = [0; 4][hit.instance_id().unwrap_or(0) as usize];
+    }
+}
+
+mod device_object_ray_from_closesthit {
+    use optix_device_rs::prelude::*;
+
+    #[anyhit]
+    pub fn program<P: Pipeline>(at: &AnyHit<P, Triangles>) -> Decision {
+        let _ = at.object_ray_origin();
+        let _ = at.object_ray_direction();
+        Decision::Accept
+    }
+}
+
+mod device_object_ray_from_miss {
+    use optix_device_rs::prelude::*;
+
+    #[intersection]
+    pub fn program<P: Pipeline>(at: &Intersection<P, Triangles>) {
+        let _ = at.object_ray_origin();
+        let _ = at.object_ray_direction();
+    }
+}
+
+mod device_object_ray_from_raygen {
+    use optix_device_rs::prelude::*;
+
+    #[intersection]
+    pub fn program<P: Pipeline>(at: &Intersection<P, Triangles>) {
+        let _ = at.object_ray_origin();
+        let _ = at.object_ray_direction();
+    }
+}
+
+mod device_primitive_from_miss {
+    use optix_device_rs::prelude::*;
+
+    #[intersection]
+    pub fn program<P: Pipeline>(at: &Intersection<P, Triangles>) {
+        let _ = at.primitive_index();
+        let _ = at.sbt_gas_index();
+        let _ = at.instance_id();
+        let _ = at.instance_index();
+        let _ = at.object_to_world();
+        let _ = at.world_to_object();
+    }
+}
+
+mod device_primitive_from_raygen {
+    use optix_device_rs::prelude::*;
+
+    #[closesthit]
+    pub fn program<P: Pipeline>(at: &ClosestHit<P, Triangles>) {
+        let _ = at.primitive_index();
+        let _ = at.sbt_gas_index();
+        let _ = at.instance_id();
+        let _ = at.instance_index();
+        let _ = at.object_to_world();
+        let _ = at.world_to_object();
+    }
+}
+
+mod device_ray_from_raygen {
+    use optix_device_rs::prelude::*;
+
+    #[miss]
+    pub fn program<P: Pipeline>(at: &Miss<P>) {
+        let _ = at.world_ray_origin();
+        let _ = at.world_ray_direction();
+        let _ = at.ray_tmin();
+        let _ = at.ray_tmax();
+        let _ = at.ray_time();
+        let _ = at.ray_flags();
+        let _ = at.ray_visibility_mask();
+    }
+}
+
+mod device_report_from_anyhit {
+    use optix_device_rs::prelude::*;
+
+    #[intersection]
+    pub fn program<P: Pipeline>(at: &Intersection<P, Triangles>) {
+        let _ = at.report(1.0, 0, Triangles { u: 0.0, v: 0.0 });
+    }
+}
+
+mod device_report_from_closesthit {
+    use optix_device_rs::prelude::*;
+
+    #[intersection]
+    pub fn program<P: Pipeline>(at: &Intersection<P, Triangles>) {
+        let _ = at.report(1.0, 0, Triangles { u: 0.0, v: 0.0 });
+    }
+}
+
+mod device_report_from_miss {
+    use optix_device_rs::prelude::*;
+
+    #[intersection]
+    pub fn program<P: Pipeline>(at: &Intersection<P, Triangles>) {
+        let _ = at.report(1.0, 0, Triangles { u: 0.0, v: 0.0 });
+    }
+}
+
+mod device_report_from_raygen {
+    use optix_device_rs::prelude::*;
+
+    #[intersection]
+    pub fn program<P: Pipeline>(at: &Intersection<P, Triangles>) {
+        let _ = at.report(1.0, 0, Triangles { u: 0.0, v: 0.0 });
+    }
+}
+
+mod device_trace_from_anyhit {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Shadow {
+        #[payload(write(caller, miss), read(caller))]
+        pub visible: bool,
+    }
+
+    #[miss]
+    pub fn program<P: HasRay<Shadow>>(at: &Miss<P>) {
+        let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+    }
+}
+
+mod device_trace_from_intersection {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Shadow {
+        #[payload(write(caller, miss), read(caller))]
+        pub visible: bool,
+    }
+
+    #[closesthit]
+    pub fn program<P: HasRay<Shadow>>(at: &ClosestHit<P, Triangles>) {
+        let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+    }
+}
+
+mod device_trace_in_a_helper {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Shadow {
+        #[payload(write(caller, miss), read(caller))]
+        pub visible: bool,
+    }
+
+    fn occluded<P: HasRay<Shadow>, A>(hit: &ClosestHit<P, A>) -> bool {
+        !hit.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false }).visible
+    }
+
+    #[closesthit]
+    pub fn program<P: HasRay<Shadow>>(hit: &ClosestHit<P, Triangles>) {
+        let _ = occluded(hit);
+    }
+}
+
+mod device_wide_kind {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct BallHit {
+        pub normal: Vec3,
+    }
+
+    #[intersection]
+    pub fn ball<P: Pipeline>(isect: &Intersection<P, BallHit>) {
+        isect.report(1.0, 0x7f, BallHit { normal: Vec3::X });
+    }
+}
+
+mod device_wide_mask {
+    use optix_device_rs::prelude::*;
+
+    pub fn ray() -> Ray {
+        Ray::new(Vec3::ZERO, Vec3::X).mask(0x80)
+    }
+}
+
+mod device_writes_a_slice {
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    pub struct Frame {
+        pub table: SliceMut<u32>,
+    }
+
+    #[raygen]
+    pub fn camera<P: Pipeline<Params = Frame>>(rg: &RayGen<P>) {
+        rg.params().table().set(0, 3);
+    }
+}
+
+mod device_writes_params {
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    pub struct Frame {
+        pub count: u32,
+        pub counts: SliceMut<u32>,
+    }
+
+    #[raygen]
+    pub fn camera<P: Pipeline<Params = Frame>>(rg: &RayGen<P>) {
+        rg.params().counts().set(0, 3);
+    }
+}
+
+fn main() {}

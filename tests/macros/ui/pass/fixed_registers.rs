@@ -1,0 +1,81 @@
+//! The cases about values in registers, put right: one module each, with the name of the case.
+#![allow(dead_code, unused)]
+
+mod attributes_field {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct BallHit {
+        pub normal: Vec3,
+    }
+}
+
+mod attributes_lifetime {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct Found {
+        pub normal: Vec3,
+    }
+}
+
+mod attributes_pointer {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct Found {
+        pub normal: Vec3,
+    }
+}
+
+mod attributes_too_many {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct BallHit {
+        pub normal: Vec3,
+        pub tangent: Vec3,
+    }
+}
+
+mod words_enum {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Words)]
+    pub struct Side {
+        pub left: bool,
+    }
+}
+
+mod words_field {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Words)]
+    pub struct Path {
+        pub length: u32,
+    }
+}
+
+mod words_nested {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Words)]
+    pub struct Spectrum {
+        pub bands: [f32; 4],
+    }
+
+    #[derive(Payload)]
+    pub struct Radiance {
+        #[payload(write(closesthit, miss), read(caller))]
+        pub light: [Spectrum; 2],
+    }
+}
+
+mod words_not_copy {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Words)]
+    pub struct Id(pub u32);
+}
+
+fn main() {}

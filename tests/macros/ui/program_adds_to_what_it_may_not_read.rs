@@ -1,0 +1,19 @@
+// H022, H040: adding to a field reads it
+
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub struct Radiance {
+    #[payload(write(closesthit, miss), read(caller))]
+    pub light: Vec3,
+    #[payload(write(caller, closesthit), read(closesthit, caller))]
+    pub rng: Pcg32,
+}
+
+#[closesthit]
+pub fn shade<P: Pipeline>(_: &ClosestHit<P, Triangles>, mut ray: RadianceAtClosestHit) -> RadianceFromClosestHit {
+    ray.light += Vec3::ONE;
+    RadianceFromClosestHit { light: ray.light, rng: ray.rng }
+}
+
+fn main() {}

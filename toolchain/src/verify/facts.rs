@@ -1,0 +1,175 @@
+//! What a pipeline's declaration says of its PTX: the host's numbers.
+
+use crate::error::Error;
+use crate::json::Json;
+
+/// A pipeline, as `<P as Pipeline>::DESCRIPTION` has it on the host.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pipeline {
+    /// The type's name.
+    pub name: String,
+    /// The launch parameters.
+    pub params: Params,
+    /// The ray types; the index is SBT offset, miss index and payload type.
+    pub rays: Vec<Ray>,
+    /// The programs, one per entry.
+    pub programs: Vec<Program>,
+}
+
+/// A launch-parameter struct.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Params {
+    /// The type's name.
+    pub name: String,
+    /// The constant-memory variable.
+    pub symbol: String,
+    /// Bytes.
+    pub size: usize,
+    /// Bytes.
+    pub align: usize,
+    /// The fields.
+    pub fields: Vec<Field>,
+}
+
+/// A field of a launch-parameter struct.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// The name.
+    pub name: String,
+    /// Bytes from the beginning.
+    pub offset: usize,
+    /// Bytes.
+    pub size: usize,
+    /// Whether it is `#[bound]`.
+    pub bound: bool,
+}
+
+/// A ray type.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ray {
+    /// The payload's name.
+    pub payload: String,
+    /// `OptixPayloadSemantics` bits per payload word.
+    pub semantics: Vec<u32>,
+}
+
+/// A device program in the place that it has in a pipeline.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Program {
+    /// Its kind.
+    pub kind: Kind,
+    /// Its entry in the PTX.
+    pub entry: String,
+    /// The Rust function as `pipeline!` names it: `surface::lambert`.
+    pub function: String,
+    /// The ray type it runs for; none for ray generation.
+    pub ray: Option<usize>,
+    /// The material of its hit group: the record's name. None for ray generation and miss.
+    pub material: Option<String>,
+}
+
+/// The kind of a device program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Ray generation.
+    RayGen,
+    /// Miss.
+    Miss,
+    /// Closest hit.
+    ClosestHit,
+    /// Any hit.
+    AnyHit,
+    /// Intersection.
+    Intersection,
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Self; 5] = [Self::RayGen, Self::Miss, Self::ClosestHit, Self::AnyHit, Self::Intersection];
+
+    /// As the attribute is called: `closesthit`.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::RayGen => "raygen",
+            Self::Miss => "miss",
+            Self::ClosestHit => "closesthit",
+            Self::AnyHit => "anyhit",
+            Self::Intersection => "intersection",
+        }
+    }
+
+    /// What OptiX wants the entry's name to begin with.
+    pub fn prefix(self) -> String {
+        format!("__{}__", self.word())
+    }
+
+    /// The `OptixPayloadSemantics` bits that let it read and write a payload word. None: it has no payload.
+    pub const fn semantics(self) -> Option<(u32, u32)> {
+        match self {
+            Self::RayGen => None,
+            Self::ClosestHit => Some((4, 8)),
+            Self::Miss => Some((16, 32)),
+            Self::AnyHit => Some((64, 128)),
+            Self::Intersection => Some((256, 512)),
+        }
+    }
+
+    /// Whether it may trace rays.
+    pub const fn may_trace(self) -> bool {
+        matches!(self, Self::RayGen | Self::ClosestHit | Self::Miss)
+    }
+}
+
+/// Reads what the program in `templates/facts` prints.
+pub(super) fn parse(text: &str) -> Result<Vec<Pipeline>, Error> {
+    let bad = |reason: String| Error::Output { of: "the pipelines' descriptions".into(), reason };
+    let json = Json::parse(text).map_err(bad)?;
+    let pipelines: Option<Vec<_>> = json.items().iter().map(pipeline).collect();
+    pipelines.ok_or_else(|| bad("a field is missing".into()))
+}
+
+fn pipeline(json: &Json) -> Option<Pipeline> {
+    let params = json.get("params");
+    Some(Pipeline {
+        name: text(json, "name")?,
+        params: Params {
+            name: text(params, "name")?,
+            symbol: text(params, "symbol")?,
+            size: params.get("size").number()?,
+            align: params.get("align").number()?,
+            fields: params.get("fields").items().iter().map(field).collect::<Option<_>>()?,
+        },
+        rays: json.get("rays").items().iter().map(ray).collect::<Option<_>>()?,
+        programs: json.get("programs").items().iter().map(program).collect::<Option<_>>()?,
+    })
+}
+
+fn text(json: &Json, key: &str) -> Option<String> {
+    json.get(key).str().map(str::to_string)
+}
+
+fn field(json: &Json) -> Option<Field> {
+    Some(Field {
+        name: text(json, "name")?,
+        offset: json.get("offset").number()?,
+        size: json.get("size").number()?,
+        bound: json.get("bound") == &Json::Bool(true),
+    })
+}
+
+fn ray(json: &Json) -> Option<Ray> {
+    let word = |json: &Json| json.number().and_then(|word| u32::try_from(word).ok());
+    let semantics = json.get("semantics").items().iter().map(word).collect::<Option<_>>()?;
+    Some(Ray { payload: text(json, "payload")?, semantics })
+}
+
+fn program(json: &Json) -> Option<Program> {
+    let kind = json.get("kind").str()?;
+    Some(Program {
+        kind: Kind::ALL.into_iter().find(|known| known.word() == kind)?,
+        entry: text(json, "entry")?,
+        function: text(json, "function")?,
+        ray: json.get("ray").number(),
+        material: text(json, "material"),
+    })
+}

@@ -1,0 +1,39 @@
+//! What costs without being wrong: local memory, and functions that are called instead of inlined.
+
+use super::code::{Code, demangled};
+use super::facts::Pipeline;
+use super::finding::{Finding, Rule};
+
+pub(super) fn check(code: &Code<'_>, pipelines: &[Pipeline], allowed: &[String], findings: &mut Vec<Finding>) {
+    let item = |name: &str| {
+        let mut programs = pipelines.iter().flat_map(|pipeline| pipeline.programs.iter().map(move |p| (pipeline, p)));
+        let program = programs.find(|(_, program)| program.entry == name);
+        program.map(|(pipeline, program)| program.item(pipeline))
+    };
+    for function in &code.0 {
+        let name = function.body.name;
+        let place = || match item(name) {
+            Some(item) => item,
+            None if function.body.is_entry => format!("entry `{name}`"),
+            None => format!("function `{}`", demangled(name)),
+        };
+        if let Some(bytes) = function.body.local_memory() {
+            findings.push(Finding::error(Rule::LocalMemory, place(), format!("keeps {bytes} bytes in local memory")));
+        }
+        if function.calls.iter().any(|call| call.function.starts_with('%')) {
+            findings.push(Finding::error(Rule::Call, place(), "calls a function through a pointer"));
+        }
+    }
+    for function in code.0.iter().filter(|function| !function.body.is_entry) {
+        let name = function.body.name;
+        let path = demangled(name);
+        let callers = code.0.iter().filter(|caller| caller.calls.iter().any(|call| call.function == name));
+        let callers: Vec<String> = callers
+            .map(|caller| item(caller.body.name).unwrap_or_else(|| format!("`{}`", demangled(caller.body.name))))
+            .collect();
+        if !callers.is_empty() && !allowed.iter().any(|allowed| path.contains(allowed.as_str())) {
+            let message = format!("is called, not inlined, by {}", callers.join(" and by "));
+            findings.push(Finding::error(Rule::Call, format!("function `{path}`"), message));
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The program that prints the host's side of a shader crate's pipelines.
+//!
+//! The PTX is to be compared with what a host program computes from the same declarations, so such a program is built
+//! and run: it depends on the shader crate by path. A pipeline need not be public. `pipeline!` offers its description
+//! under a symbol which ends like the names of the pipeline's entries, where `--cfg optix_facts` asks for it.
+//!
+//! It is compiled by the device compiler, for the host, in the folder of the device build: proc macros are there.
+
+use std::collections::BTreeSet;
+
+use super::facts::{self, Pipeline};
+use crate::cargo;
+use crate::device_build::Session;
+use crate::error::Error;
+use crate::lock;
+use crate::metadata::Package;
+use crate::util::{toml_string, write_if_changed};
+use crate::wrapper::{PROFILE, dependency, profile};
+
+const MAIN: &str = include_str!("../../templates/facts/main.rs");
+const DEVICE_CRATE: &str = "optix-device-rs";
+
+/// The pipelines that these entries belong to. Entries that no `pipeline!` made are passed over.
+pub(super) fn pipelines(session: &Session<'_>, entries: &[String]) -> Result<Vec<Pipeline>, Error> {
+    let places: BTreeSet<&str> = entries.iter().filter_map(|entry| place(entry)).collect();
+    let device_crate = session.graph.packages.iter().find(|package| package.name == DEVICE_CRATE);
+    let Some(device_crate) = device_crate.filter(|_| !places.is_empty()) else {
+        return Ok(Vec::new());
+    };
+    let dir = session.own.join("facts");
+    write_if_changed(&dir.join("Cargo.toml"), &manifest(session, device_crate)?)?;
+    write_if_changed(&dir.join("src/main.rs"), &source(session, &places))?;
+    lock::seed(&dir, &session.locked()?)?;
+
+    let mut command = cargo::command(&dir);
+    command
+        .args(["run", "--quiet", "--profile", PROFILE, "--target", session.compiler.host()?])
+        .arg("--target-dir")
+        .arg(session.target_dir())
+        .env("RUSTC", &session.compiler.rustc)
+        .env("RUSTC_BOOTSTRAP", "1")
+        .env("RUSTC_WRAPPER", "")
+        .env("RUSTC_WORKSPACE_WRAPPER", "")
+        .env("CARGO_ENCODED_RUSTFLAGS", "--cfg\x1foptix_facts");
+    let text = cargo::read(&mut command, &format!("reading the pipelines of {}", session.package.name))?;
+    facts::parse(&text)
+}
+
+/// The eight hexadecimal digits that an entry of `pipeline!` ends with.
+fn place(entry: &str) -> Option<&str> {
+    let (_, place) = entry.rsplit_once('_')?;
+    let is_digit = |c: char| matches!(c, '0'..='9' | 'a'..='f');
+    (place.len() == 8 && place.chars().all(is_digit)).then_some(place)
+}
+
+fn manifest(session: &Session<'_>, device_crate: &Package) -> Result<String, Error> {
+    let of_device_crate = match device_crate.source.as_deref() {
+        None => format!("path = {}", toml_string(&device_crate.dir().to_string_lossy())),
+        Some(source) if source.starts_with("registry+") => format!("version = \"={}\"", device_crate.version),
+        Some(source) => {
+            let reason = format!("{DEVICE_CRATE} comes from {source}; a path or a registry is needed here");
+            return Err(Error::Output { of: "cargo metadata".into(), reason });
+        }
+    };
+    Ok(format!(
+        "# Written by optix-toolchain; see its `verify` module.\n\
+         [package]\n\
+         name = \"optix-facts\"\n\
+         version = \"0.0.0\"\n\
+         edition = \"2024\"\n\
+         publish = false\n\n\
+         {}\n\
+         [dependencies.{DEVICE_CRATE}]\n\
+         {of_device_crate}\n\n\
+         {}\n\
+         [workspace]\n",
+        dependency(session.shaders, &session.package),
+        profile(session.shaders)
+    ))
+}
+
+fn source(session: &Session<'_>, places: &BTreeSet<&str>) -> String {
+    let library = session.package.library.as_deref().unwrap_or_default();
+    let list = |text: &dyn Fn(&str) -> String| places.iter().map(|place| text(place)).collect::<String>();
+    let declarations = list(&|place| format!("        safe fn __optix_facts_{place}() -> &'static D;\n"));
+    let calls = list(&|place| format!("            __optix_facts_{place}(),\n"));
+    // The crate is named so that it is linked.
+    format!(
+        "{MAIN}mod facts {{\n    extern crate {library} as _;\n    use optix_device_rs::host::PipelineDescription as D;\n\n    \
+         unsafe extern \"Rust\" {{\n{declarations}    }}\n\n    pub fn all() -> Vec<&'static D> {{\n        \
+         vec![\n{calls}        ]\n    }}\n}}\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::place;
+
+    #[test]
+    fn places_are_told_from_other_endings() {
+        assert_eq!(place("__raygen__PathTracer_camera_1c5c38d3"), Some("1c5c38d3"));
+        assert_eq!(place("__raygen__camera_by_hand"), None);
+        assert_eq!(place("camera"), None);
+    }
+}

@@ -1,0 +1,221 @@
+//! Each check on a PTX that is right, and on the same with one thing wrong.
+
+use super::*;
+
+/// A module as the toolkit compiles it, shortened: two ray types, one program of each kind.
+const PTX: &str = include_str!("tests/sound.ptx");
+
+fn program(kind: Kind, function: &str, ray: Option<usize>, material: Option<&str>) -> Program {
+    let entry = format!("__{}__Demo_{function}_0123abcd", kind.word());
+    Program { kind, entry, function: function.into(), ray, material: material.map(str::to_string) }
+}
+
+fn demo() -> Pipeline {
+    let field = |name: &str, offset, size, bound| Field { name: name.into(), offset, size, bound };
+    Pipeline {
+        name: "Demo".into(),
+        params: Params {
+            name: "Frame".into(),
+            symbol: "optix_params_Frame_89abcdef".into(),
+            size: 32,
+            align: 8,
+            fields: vec![
+                field("world", 0, 8, false),
+                field("bounces", 8, 4, true),
+                field("sun", 12, 12, false),
+                field("flag", 24, 1, true),
+                field("small", 26, 2, true),
+            ],
+        },
+        rays: vec![
+            // Word 0: write(closesthit, miss), read(caller). Word 1: write(caller, anyhit), read(closesthit, anyhit).
+            Ray { payload: "Radiance".into(), semantics: vec![8 | 32 | 1, 2 | 128 | 4 | 64] },
+            Ray { payload: "Shadow".into(), semantics: vec![2 | 32 | 1] },
+        ],
+        programs: vec![
+            program(Kind::RayGen, "camera", None, None),
+            program(Kind::Miss, "sky", Some(0), None),
+            program(Kind::ClosestHit, "shade", Some(0), Some("Lambert")),
+            program(Kind::AnyHit, "cut_out", Some(0), Some("Lambert")),
+            program(Kind::Intersection, "ball", Some(1), Some("Ball")),
+        ],
+    }
+}
+
+/// The findings after `from` has become `to` wherever it stands.
+fn findings(from: &str, to: &str) -> Vec<String> {
+    assert!(PTX.contains(from), "{from}");
+    let findings = check(&PTX.replace(from, to), &[demo()], &["helper".into()]);
+    findings.iter().map(Finding::to_string).collect()
+}
+
+/// One finding, which contains all of `says`.
+#[track_caller]
+fn one(from: &str, to: &str, says: &[&str]) {
+    let findings = findings(from, to);
+    assert_eq!(findings.len(), 1, "{findings:#?}");
+    for part in says {
+        assert!(findings[0].contains(part), "{part:?} in {:?}", findings[0]);
+    }
+}
+
+#[test]
+fn a_sound_module_has_no_findings() {
+    assert_eq!(findings("", ""), [] as [&str; 0]);
+}
+
+#[test]
+fn entries() {
+    let shade = "closest-hit program `shade` of `Demo` (material `Lambert`, ray `Radiance`)";
+    let renamed = findings("__closesthit__Demo_shade_0123abcd", "__closesthit__other");
+    assert!(renamed[0].contains("error[entry]") && renamed[0].contains(shade), "{renamed:?}");
+    assert!(renamed[0].contains("there is no entry `__closesthit__Demo_shade_0123abcd`"), "{renamed:?}");
+    assert!(renamed[1].contains("warning[entry]") && renamed[1].contains("`__closesthit__other`"), "{renamed:?}");
+    one("__miss__Demo_sky_0123abcd()", "__miss__Demo_sky_0123abcd(.param .b64 a)", &["`sky`", "has parameters"]);
+    one("// end", ".visible .entry __miss__Demo_sky_0123abcd()\n{\n}\n", &["`sky`", "2 entries"]);
+
+    let mut wrong = demo();
+    wrong.programs[1].kind = Kind::Intersection;
+    wrong.programs[1].ray = Some(0);
+    let text = check(PTX, &[wrong], &["helper".into()])[0].to_string();
+    assert!(text.contains("does not begin with `__intersection__`"), "{text}");
+}
+
+#[test]
+fn the_parameters_variable() {
+    let declaration = ".visible .const .align 8 .b8 optix_params_Frame_89abcdef[32];";
+    let one = |to: &str, says: &str| one(declaration, to, &["error[params-symbol]", "`Frame` of `Demo`", says]);
+    one("", "there is no constant-memory variable");
+    one(&format!("{declaration}\n{declaration}"), "2 times");
+    one(&declaration.replace("32", "40"), "the PTX has 40 bytes for them, the host 32");
+    one(&declaration.replace("align 8", "align 4"), "the PTX aligns them to 4 bytes, the host to 8");
+    one(&declaration.replace(".const", ".global"), "there is no constant-memory variable");
+}
+
+#[test]
+fn loads_of_parameters() {
+    let load = "ld.const.b32 %r3, [optix_params_Frame_89abcdef+8];";
+    let one = |to: &str, says: &[&str]| {
+        one(load, to, says);
+        one(load, to, &["params-load]", "ray-generation program `camera` of `Demo`"]);
+    };
+    let at = |op: &str, offset| format!("{op} %r3, [optix_params_Frame_89abcdef+{offset}];");
+    one(&at("ld.const.b32", 10), &["bytes 10..14", "`bounces` 8..12, `sun` 12..24"]);
+    one(&at("ld.const.b32", 14), &["no element of the field `Frame::sun` at 12..24"]);
+    one(&at("ld.const.b32", 28), &["bytes 28..32", "not inside of one field"]);
+    one(&at("ld.const.b64", 8), &["bytes 8..16", "not inside of one field"]);
+    one("ld.const.v2.b32 {%r3, %r4}, [optix_params_Frame_89abcdef+8];", &["bytes 8..16"]);
+    one("ld.const.v4.u8 {%r3, %r4, %r5, %r6}, [optix_params_Frame_89abcdef+8];", &["`Frame::bounces`", "specialised"]);
+    one(&at("ld.const.u8", 8), &["warning", "the bound field `Frame::bounces` in pieces of 1 byte"]);
+    one("mov.b64 %rd8, optix_params_Frame_89abcdef; cvta.const.u64 %rd9, %rd8;", &["takes the address", "no field"]);
+    one("ld.const.b32 %r3, [optix_params_Frame_89abcdef+%rd1];", &["takes the address"]);
+    for good in [
+        at("ld.const.b32", 20),
+        at("ld.const.u8", 24),
+        at("ld.const.b32", 4),
+        at("mov.b32", 0).replace("optix_params_Frame_89abcdef", "optix_params_Frame_89abcdef2"),
+    ] {
+        assert_eq!(findings(load, &good), [] as [&str; 0]);
+    }
+    let pieces = findings(load, &at("ld.const.u8", 27));
+    assert!(pieces[0].contains("warning") && pieces[0].contains("`Frame::small`"), "{pieces:?}");
+
+    let mut large = demo();
+    large.params.fields.push(Field { name: "table".into(), offset: 32, size: 256, bound: false });
+    let text = PTX.replace(load, "mov.b64 %rd8, optix_params_Frame_89abcdef;");
+    let found = check(&text, &[large], &["helper".into()]);
+    assert_eq!(found[0].level, Level::Warning);
+    assert!(found[0].message.contains("`Frame::table` (256 bytes) through a pointer"), "{}", found[0]);
+}
+
+#[test]
+fn parameters_of_another_pipeline() {
+    let mut other = demo();
+    other.name = "Other".into();
+    other.params.name = "OtherFrame".into();
+    other.params.symbol = "optix_params_Other_00000000".into();
+    other.programs.clear();
+    let text = PTX
+        .replace("// end", ".visible .const .align 8 .b8 optix_params_Other_00000000[32];\n")
+        .replace("[optix_params_Frame_89abcdef+8]", "[optix_params_Other_00000000+8]");
+    let found = check(&text, &[demo(), other], &["helper".into()]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].message.contains("`OtherFrame`, which are those of `Other`"), "{}", found[0]);
+}
+
+#[test]
+fn payload_types() {
+    let miss = "mov.b32 %r1, 1; // miss type\n\tcall _optix_set_payload_types, (%r1);";
+    let one = |to: &str, says: &str| one(miss, to, &["error[payload-type]", "miss program `sky` of `Demo`", says]);
+    one("call _optix_set_payload_types, (2);", "type 2 (`Shadow`), but it runs for type 1 (`Radiance`)");
+    one("call _optix_set_payload_types, (3);", "type 3 (`Radiance` and `Shadow`)");
+    one("call _optix_set_payload_types, (4);", "type 4 (no ray type of `Demo`)");
+    one("call _optix_set_payload_types, (%r9);", "not a constant");
+    one("", "does not announce its payload type, 1 (`Radiance`)");
+    one(&format!("{miss}\n{miss}"), "2 times");
+    one("call _optix_set_payload, (0, %r9); call _optix_set_payload_types, (1);", "after it has used the payload");
+    let camera = "ld.const.b32 %r3, [optix_params_Frame_89abcdef+8];";
+    super::tests::one(camera, "call _optix_set_payload_types, (1);", &["`camera`", "although it has no payload"]);
+}
+
+#[test]
+fn payload_words() {
+    let set = "call _optix_set_payload, (%r2, %r5); // miss word";
+    let one = |to: &str, says: &str| one(set, to, &["error[payload-word]", "miss program `sky` of `Demo`", says]);
+    one(
+        "call _optix_set_payload, (1, %r5);",
+        "sets payload word 1, which `Radiance` does not let be written by miss programs",
+    );
+    one("call _optix_set_payload, (2, %r5);", "sets payload word 2, but `Radiance` has 2 words");
+    one("call _optix_set_payload, (%r5, %r5);", "not a constant");
+    one(
+        "call (%r6), _optix_get_payload, (0);",
+        "gets payload word 0, which `Radiance` does not let be read by miss programs",
+    );
+    let camera = "ld.const.b32 %r3, [optix_params_Frame_89abcdef+8];";
+    super::tests::one(camera, "call (%r3), _optix_get_payload, (0);", &["`camera`", "although it has no payload"]);
+}
+
+#[test]
+fn trace_calls() {
+    let arguments = "%r20, %r21, %r22, %r23, %r24, %r25";
+    let shadow = ["`camera`", "error[trace]"];
+    // Mask, flags, offset, stride, miss index and word count are the registers 20 to 25, the type is register 10.
+    let replaced = |register: &str, by: &str| arguments.replace(register, by);
+    let check = |to: String, says: &str| one(arguments, &to, &[shadow[0], shadow[1], says]);
+    check(replaced("%r22", "0"), "ray `Shadow` with SBT offset 0 in place of 1");
+    check(replaced("%r23", "1"), "ray `Shadow` with SBT stride 1 in place of 2");
+    check(replaced("%r24", "0"), "ray `Shadow` with miss index 0 in place of 1");
+    check(replaced("%r25", "2"), "ray `Shadow` with payload word count 2 in place of 1");
+    check(replaced("%r23", "%r3"), "its SBT stride is not a constant");
+    check(replaced("%r25", "%r25, none"), "passes 50 arguments");
+    one("mov.b32 %r10, 2;", "mov.b32 %r10, 4;", &["payload type 4, which is no ray type of `Demo`"]);
+    one("mov.b32 %r10, 2;", "mov.b32 %r10, 3;", &["payload type 3"]);
+    one("mov.b32 %r10, 2;", "", &["payload type is not a constant"]);
+    one("_optix_trace_typed_32", "_optix_trace_8", &["calls `_optix_trace_8`"]);
+
+    let any_hit = "call _optix_ignore_intersection, ();";
+    let found = findings(any_hit, "call (%r1), _optix_trace_typed_32, (1);");
+    assert!(found[0].contains("any-hit program `cut_out`") && found[0].contains("does not allow"), "{found:?}");
+}
+
+#[test]
+fn what_a_called_function_does_counts() {
+    let helper = "call (%r2), _optix_get_payload, (%r1); // helper";
+    let path =
+        "closest-hit program `shade` of `Demo` (material `Lambert`, ray `Radiance`), in `demo::helper`, which it calls";
+    one(helper, "call (%r2), _optix_get_payload, (0);", &[path, "gets payload word 0"]);
+}
+
+#[test]
+fn memory_and_calls() {
+    let depot = "// depot";
+    one(depot, ".local .align 4 .b8 __local_depot0[16];", &["error[local-memory]", "miss program `sky`", "16 bytes"]);
+    one(depot, "call (%r1), %rd1, (), prototype_0;", &["error[call]", "miss program `sky`", "through a pointer"]);
+    one("// end", ".extern .func missing\n();\n", &["error[module]", "missing"]);
+
+    let found = check(PTX, &[demo()], &[]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].item, "function `demo::helper`");
+    assert!(found[0].message.starts_with("is called, not inlined, by closest-hit program `shade`"), "{}", found[0]);
+}

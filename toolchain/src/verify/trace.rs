@@ -1,0 +1,66 @@
+//! Trace calls: that everything in them follows from the ray type.
+
+use super::code::Function;
+use super::facts::{Pipeline, Program};
+use super::finding::{Finding, Rule};
+use crate::ptx::calls::Call;
+
+const TRACE: &str = "_optix_trace_typed_32";
+
+/// Positions of `_optix_trace_typed_32`'s arguments; before the offset are type, handle, nine numbers of the ray, mask
+/// and flags, and behind the word count the words themselves.
+const TYPE: usize = 0;
+const SBT_OFFSET: usize = 13;
+const SBT_STRIDE: usize = 14;
+const MISS_INDEX: usize = 15;
+const WORDS: usize = 16;
+const ARGUMENTS: usize = 49;
+
+pub(super) fn check(
+    function: &Function<'_>,
+    program: &Program,
+    pipeline: &Pipeline,
+    item: &str,
+    findings: &mut Vec<Finding>,
+) {
+    for call in function.calls.iter().filter(|call| call.function.starts_with("_optix_trace")) {
+        let mut error = |message: String| findings.push(Finding::error(Rule::Trace, function.place(item), message));
+        if !program.kind.may_trace() {
+            error("traces a ray, which OptiX does not allow in a program of its kind".into());
+        }
+        if call.function != TRACE {
+            error(format!("calls `{}`, of which nothing can be proven here", call.function));
+        } else if call.arguments.len() != ARGUMENTS {
+            error(format!("passes {} arguments to `{TRACE}`, which takes {ARGUMENTS}", call.arguments.len()));
+        } else {
+            check_call(call, pipeline, &mut error);
+        }
+    }
+}
+
+fn check_call(call: &Call<'_>, pipeline: &Pipeline, error: &mut impl FnMut(String)) {
+    let Some(types) = call.values[TYPE] else {
+        error("traces a ray whose payload type is not a constant".into());
+        return;
+    };
+    let index = types.trailing_zeros();
+    let Some(ray) = pipeline.rays.get(index as usize).filter(|_| types.is_power_of_two()) else {
+        error(format!("traces a ray of payload type {types}, which is no ray type of `{}`", pipeline.name));
+        return;
+    };
+    let expected = [
+        (SBT_OFFSET, "SBT offset", index as usize),
+        (SBT_STRIDE, "SBT stride", pipeline.rays.len()),
+        (MISS_INDEX, "miss index", index as usize),
+        (WORDS, "payload word count", ray.semantics.len()),
+    ];
+    for (position, what, expected) in expected {
+        match call.values[position] {
+            Some(value) if value as usize == expected => {}
+            Some(value) => {
+                error(format!("traces a ray `{}` with {what} {value} in place of {expected}", ray.payload));
+            }
+            None => error(format!("traces a ray `{}`, and its {what} is not a constant", ray.payload)),
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Written by optix-toolchain; see its `verify` module. Prints the pipelines of a shader crate as JSON.
+
+use optix_device_rs::host::{Entry, PipelineDescription};
+
+fn main() {
+    let pipelines: Vec<String> = facts::all().into_iter().map(pipeline).collect();
+    println!("[{}]", pipelines.join(","));
+}
+
+fn pipeline(pipeline: &PipelineDescription) -> String {
+    let params = pipeline.params;
+    let fields = list(params.fields, |field| {
+        format!(
+            r#"{{"name":{:?},"offset":{},"size":{},"bound":{}}}"#,
+            field.name, field.offset, field.size, field.bound
+        )
+    });
+    let rays = list(pipeline.rays, |ray| {
+        format!(r#"{{"payload":{:?},"semantics":{:?}}}"#, ray.payload.name, ray.payload.semantics)
+    });
+    format!(
+        r#"{{"name":{:?},"params":{{"name":{:?},"symbol":{:?},"size":{},"align":{},"fields":{fields}}},"rays":{rays},"programs":{}}}"#,
+        pipeline.name,
+        params.name,
+        params.symbol,
+        params.size,
+        params.align,
+        list(&programs(pipeline), String::clone)
+    )
+}
+
+fn programs(pipeline: &PipelineDescription) -> Vec<String> {
+    let mut programs = Vec::new();
+    let mut add = |kind: &str, entry: &Entry, ray: Option<usize>, material: Option<&str>| {
+        let ray = ray.map_or("null".to_string(), |ray| ray.to_string());
+        let material = material.map_or("null".to_string(), |material| format!("{material:?}"));
+        programs.push(format!(
+            r#"{{"kind":{kind:?},"entry":{:?},"function":{:?},"ray":{ray},"material":{material}}}"#,
+            entry.name, entry.function
+        ));
+    };
+    for program in pipeline.raygen {
+        add("raygen", &program.entry, None, None);
+    }
+    for (index, ray) in pipeline.rays.iter().enumerate() {
+        if let Some(miss) = &ray.miss {
+            add("miss", &miss.entry, Some(index), None);
+        }
+    }
+    for group in pipeline.hitgroups {
+        for (index, ray) in group.rays.iter().enumerate() {
+            let of_group = [("closesthit", &ray.closesthit), ("anyhit", &ray.anyhit), ("intersection", &ray.intersection)];
+            for (kind, entry) in of_group {
+                if let Some(entry) = entry {
+                    add(kind, entry, Some(index), Some(group.record.name));
+                }
+            }
+        }
+    }
+    programs
+}
+
+fn list<T>(items: &[T], text: impl Fn(&T) -> String) -> String {
+    let items: Vec<String> = items.iter().map(text).collect();
+    format!("[{}]", items.join(","))
+}
+

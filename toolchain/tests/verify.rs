@@ -1,0 +1,63 @@
+//! The workspace's shader crates keep their contracts; a damaged one does not.
+
+mod common;
+
+use std::path::Path;
+
+use optix_toolchain::Shaders;
+use optix_toolchain::verify::{Level, Rule, Verified, check};
+
+fn verified(path: &str) -> Verified {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+    Shaders::new(path).verify_in(common::area(), &[]).expect("it compiles")
+}
+
+#[test]
+fn the_workspaces_shaders_are_sound() {
+    if !common::can_compile("the_workspaces_shaders_are_sound") {
+        return;
+    }
+    for (path, pipeline, programs) in [
+        ("examples/path-tracer/shaders", "PathTracer", 12),
+        ("tests/shaders", "Probe", 4),
+        ("tests/golden/typed", "Golden", 11),
+    ] {
+        let verified = verified(path);
+        assert!(verified.findings.is_empty(), "{path}: {:#?}", verified.findings);
+        let found = verified.pipelines.iter().find(|found| found.name == pipeline);
+        let found = found.unwrap_or_else(|| panic!("{path}: no `{pipeline}` in {:?}", verified.pipelines));
+        assert_eq!(found.programs.len(), programs, "{path}");
+        assert!(found.params.size > 0 && !found.params.fields.is_empty(), "{path}");
+    }
+}
+
+#[test]
+fn damage_to_real_ptx_is_found() {
+    if !common::can_compile("damage_to_real_ptx_is_found") {
+        return;
+    }
+    let Verified { built, pipelines, .. } = verified("examples/path-tracer/shaders");
+    let rules = |text: &str| -> Vec<Rule> {
+        let errors = check(text, &pipelines, &[]).into_iter().filter(|finding| finding.level == Level::Error);
+        let mut rules: Vec<Rule> = errors.map(|finding| finding.rule).collect();
+        rules.dedup();
+        rules
+    };
+    // The host binds a field that the device reads from somewhere else.
+    let mut other_layout = pipelines.clone();
+    let frame = &mut other_layout[0].params;
+    let bound = frame.fields.iter_mut().find(|field| field.bound).expect("`max_bounces`");
+    bound.offset += 8;
+    let found = check(&built.text, &other_layout, &[]);
+    assert!(
+        found.iter().any(|finding| finding.rule == Rule::ParamsLoad && finding.item.contains("`camera::camera`")),
+        "{found:?}"
+    );
+
+    let symbol = &pipelines[0].params.symbol;
+    let declared = format!("{symbol}[{}]", pipelines[0].params.size);
+    assert_eq!(rules(&built.text.replace(&declared, &format!("{symbol}[8]"))), [Rule::ParamsSymbol]);
+    assert_eq!(rules(&built.text.replace("_optix_trace_typed_32", "_optix_trace_32")), [Rule::Trace]);
+    let entry = &pipelines[0].programs[0].entry;
+    assert_eq!(rules(&built.text.replace(entry.as_str(), "__raygen__nobody")), [Rule::Entry]);
+}
