@@ -51,9 +51,18 @@ impl Device {
 
     /// The CPU, on all cores (rayon's global pool).
     pub fn cpu() -> Result<Self> {
-        let backend = CpuBackend::new();
+        Ok(Self::on_cpu(CpuBackend::new()))
+    }
+
+    /// The CPU, in checked mode: a launch ends with an error that names launch index, program and rule where a program
+    /// does what the OptiX guide calls undefined. Slower than [`Device::cpu`]; pictures are the same.
+    pub fn cpu_checked() -> Result<Self> {
+        Ok(Self::on_cpu(CpuBackend::checked()))
+    }
+
+    fn on_cpu(backend: CpuBackend) -> Self {
         let name: Arc<str> = backend.description().into();
-        Ok(Self { backend: Arc::new(backend), kind: BackendKind::Cpu, description: name.clone(), name })
+        Self { backend: Arc::new(backend), kind: BackendKind::Cpu, description: name.clone(), name }
     }
 
     /// The first GPU, through OptiX.

@@ -93,7 +93,8 @@ pub fn derive_payload(input: TokenStream) -> TokenStream {
 /// A field is a view if its type's name is `Slice`, `SliceMut`, `SliceMut2d` or `Traversable`, or an array of these. A view
 /// under another name, and a struct with views that derives `DeviceData`, needs `#[view]` on the field; without it the
 /// field does not compile. A struct with views has a twin, `LambertHost`, with the same fields and visibilities; one
-/// without is its own.
+/// without is its own. In a device build the twin's name stands for a type without values, so that `pub use
+/// materials::LambertHost;` needs no `#[cfg]`.
 #[proc_macro_derive(SbtRecord, attributes(view, optix))]
 pub fn derive_sbt_record(input: TokenStream) -> TokenStream {
     support::derive(input.into(), record::derive).into()
@@ -214,7 +215,8 @@ pub fn derive_attributes(input: TokenStream) -> TokenStream {
 /// assert_eq!(Frame::MAX_BOUNCES.field().offset, 24);
 /// ```
 ///
-/// The attribute adds `#[repr(C)]`, `Clone` and `Copy`. Write it above any `#[derive(..)]`, at the level of a module.
+/// The attribute adds `#[repr(C)]`, `Clone` and `Copy`. Write it above any `#[derive(..)]`, at the level of a module. Its
+/// fields have no `#[cfg(..)]`: host and device see the same ones.
 /// `Frame` gets:
 /// - a view, `FrameView`, with a method for each field: what `params()` returns in a program;
 /// - a host twin, `FrameHost`, if it has views (see [`SbtRecord`](macro@SbtRecord)): what a launch takes;
@@ -250,6 +252,11 @@ pub fn launch_params(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// The context comes first. A program that leaves out the record serves all materials; one that leaves out the payload
 /// serves all ray types whose payload asks nothing of it. Pipeline `P`, hits `A` and record `R` may be type parameters, so
 /// that a library of programs serves other people's pipelines.
+///
+/// What `pipeline!` can't tell, a program can't leave open: a ray-generation or miss program has a record of its own, so `R`
+/// is a type there, and an intersection program says what hits carry, so `A` is. A program does not call itself (OptiX has
+/// no recursive functions; a helper that calls back is found in the PTX). A `#[cfg(..)]` on the function holds for all that
+/// is made of it; its arguments have none.
 ///
 /// The function stays as it is. Beside it there is a type of the same name, by which `pipeline!` knows the program: where
 /// a program is imported by name, both come.

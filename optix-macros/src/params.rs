@@ -226,7 +226,8 @@ fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
     let declare = format!(
         ".visible .const .align {{a}} .b8 {symbol}[{{n}}];\n.visible .global .align 8 .b64 {symbol}_layout = {{layout}};"
     );
-    let loads = [("long", "b64", "u64", 8usize), ("word", "b32", "u32", 4), ("half", "u16", "u16", 2), ("byte", "u8", "u8", 1)];
+    let loads =
+        [("long", "b64", "u64", 8usize), ("word", "b32", "u32", 4), ("half", "u16", "u16", 2), ("byte", "u8", "u8", 1)];
     let loads = loads.map(|(function, load, ty, unit)| {
         let load = format!("ld.const.{load} {{v}}, [{symbol}+{{at}}];");
         let (function, ty) = (format_ident!("{function}"), format_ident!("{ty}"));

@@ -73,6 +73,22 @@ fn is_plain(ty: &Type) -> bool {
     }
 }
 
+/// Whether nothing can be made of a field. What is wrong goes to `errors`.
+fn is_no_field(field: &syn::Field, of: &Ident, what: &str, errors: &mut Errors) -> bool {
+    if mentions(field.ty.to_token_stream(), "Self") {
+        let message =
+            format!("write `{of}` for `Self`: in the structs that are made of this one `Self` is another type");
+        errors.at(&field.ty, message);
+    } else if matches!(ungroup(&field.ty), Type::TraitObject(_) | Type::ImplTrait(_)) {
+        errors.at(&field.ty, format!("{what} has fields of one size: this is no type of a value, but traits"));
+    } else if let Some(unnamed) = field.ident.as_ref().filter(|ident| *ident == "_") {
+        errors.at(unnamed, format!("a field of {what} has a name, by which programs read it"));
+    } else {
+        return false;
+    }
+    true
+}
+
 impl Struct {
     /// Reads a struct. `what` is what it is to become: "a payload", "an SBT record".
     pub fn parse(input: &DeriveInput, what: &str, tuples: bool, errors: &mut Errors) -> Option<Self> {
@@ -105,15 +121,7 @@ impl Struct {
                 return None;
             }
         };
-        if let Some(field) = data.fields.iter().find(|f| mentions(f.ty.to_token_stream(), "Self")) {
-            errors.at(
-                &field.ty,
-                format!("write `{}` for `Self`: in the structs that are made of this one `Self` is another type", input.ident),
-            );
-            return None;
-        }
-        if let Some(field) = data.fields.iter().find(|f| matches!(ungroup(&f.ty), Type::TraitObject(_) | Type::ImplTrait(_))) {
-            errors.at(&field.ty, format!("{what} has fields of one size: this is no type of a value, but traits"));
+        if data.fields.iter().any(|field| is_no_field(field, &input.ident, what, errors)) {
             return None;
         }
         let fields = data.fields.iter().enumerate().map(|(i, field)| Field::parse(i, field, errors)).collect();

@@ -1,6 +1,6 @@
 //! What a PTX file holds, and whether OptiX could load it.
 
-#[cfg_attr(not(feature = "cli"), expect(dead_code, reason = "a build script asks for local memory only"))]
+#[cfg_attr(not(feature = "cli"), allow(dead_code, reason = "a build script asks for local memory only"))]
 pub(crate) mod body;
 #[cfg(feature = "cli")]
 pub(crate) mod calls;

@@ -17,17 +17,14 @@ fn the_workspaces_shaders_are_sound() {
     if !common::can_compile("the_workspaces_shaders_are_sound") {
         return;
     }
-    for (path, pipeline, programs) in [
-        ("examples/path-tracer/shaders", "PathTracer", 12),
-        ("tests/shaders", "Probe", 4),
-        ("tests/golden/typed", "Golden", 11),
-    ] {
+    for (path, pipeline) in
+        [("examples/path-tracer/shaders", "PathTracer"), ("tests/shaders", "Probe"), ("tests/golden/typed", "Golden")]
+    {
         let verified = verified(path);
         assert!(verified.findings.is_empty(), "{path}: {:#?}", verified.findings);
-        let found = verified.pipelines.iter().find(|found| found.name == pipeline);
-        let found = found.unwrap_or_else(|| panic!("{path}: no `{pipeline}` in {:?}", verified.pipelines));
-        assert_eq!(found.programs.len(), programs, "{path}");
-        assert!(found.params.size > 0 && !found.params.fields.is_empty(), "{path}");
+        assert!(verified.pipelines.iter().any(|found| found.name == pipeline), "{path}: {:?}", verified.pipelines);
+        let programs: usize = verified.pipelines.iter().map(|found| found.programs.len()).sum();
+        assert_eq!(programs, verified.built.entries.len(), "{path}: each entry is compared");
     }
 }
 

@@ -44,12 +44,22 @@ pub struct Frame<'a> {
     pub record: NonNull<u8>,
     /// The payload, shared by all programs of a trace call.
     pub payload: &'a Cell<WordBuffer>,
+    /// Who is told of the words that the program takes and gives; only an executor that checks wants to know.
+    pub watch: Option<&'a dyn PayloadWatch>,
     /// The ray, in world space, as passed to trace; with the `tmax` that the program sees (guide 13.5).
     pub ray: Ray,
     /// Origin and direction in object space; intersection and any-hit programs only.
     pub object_ray: (Vec3, Vec3),
     /// The hit.
     pub hit: HitState,
+}
+
+/// Is told of a program's payload accesses before they happen. Bit `i` of a mask is payload word `i`.
+pub trait PayloadWatch {
+    /// The program takes these words.
+    fn takes(&self, mask: u32);
+    /// The program gives these words.
+    fn gives(&self, mask: u32);
 }
 
 /// What a program asks of the executor that runs it.

@@ -12,6 +12,6 @@ pub use description::{
     Entry, HitGroupDescription, HitPrograms, ParamsDescription, PayloadDescription, PipelineDescription,
     ProgramDescription, RayDescription, RecordLayout,
 };
-pub use frame::{Executor, Frame, HitState};
+pub use frame::{Executor, Frame, HitState, PayloadWatch};
 pub use memory::{Buffer, Buffer2d, DeviceId, Memory, MemoryError, World};
 pub use twin::{KeepAlive, Twin, View};

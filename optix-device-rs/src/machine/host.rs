@@ -3,7 +3,8 @@
 use super::TraceCall;
 use crate::host::Frame;
 use crate::params::LaunchParams;
-use crate::words::WordBuffer;
+use crate::words::{MAX_PAYLOAD_WORDS, WordBuffer};
+use core::cell::Cell;
 use core::marker::PhantomData;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec2, Vec3};
@@ -30,6 +31,14 @@ impl<P> Copy for ParamsBase<'_, P> {}
 pub unsafe fn load_param<P: LaunchParams, T: Copy, const OFFSET: usize>(base: ParamsBase<'_, P>) -> T {
     // SAFETY: the executor's parameters are a valid `P` (`Cx::new`), and the caller vouches for the field.
     unsafe { base.0.add(OFFSET).cast::<T>().read() }
+}
+
+/// The payload's words, each a cell of its own.
+#[inline(always)]
+fn each_word(payload: &Cell<WordBuffer>) -> &[Cell<u32>; MAX_PAYLOAD_WORDS] {
+    // SAFETY: `WordBuffer` is transparent over `[u32; MAX_PAYLOAD_WORDS]` and `Cell<T>` over `T`, and a cell of an array may
+    // be taken for an array of cells, as `Cell::as_slice_of_cells` does.
+    unsafe { &*core::ptr::from_ref(payload).cast() }
 }
 
 impl Cx {
@@ -65,26 +74,32 @@ impl Cx {
         self.frame().launch_dimensions
     }
     #[inline(always)]
-    pub fn trace(&self, call: &TraceCall) -> WordBuffer {
-        let mut payload = call.payload;
+    pub fn trace(&self, call: &TraceCall, mut payload: WordBuffer) -> WordBuffer {
         self.frame().executor.trace(call, &mut payload);
         payload
     }
     #[inline(always)]
     pub fn set_payload_type(&self, _: u32) {}
     #[inline(always)]
-    pub fn payload(&self, _mask: u32) -> WordBuffer {
+    pub fn payload(&self, mask: u32) -> WordBuffer {
+        if let Some(watch) = self.frame().watch {
+            watch.takes(mask);
+        }
+        // The caller inlines this and uses the words of `mask` only, so no more are copied.
         self.frame().payload.get()
     }
     #[inline(always)]
     pub fn set_payload(&self, mask: u32, words: &WordBuffer) {
-        let mut payload = self.frame().payload.get();
-        for i in 0..32 {
+        if let Some(watch) = self.frame().watch {
+            watch.gives(mask);
+        }
+        // Word by word: the mask is a constant, and most payloads are much smaller than the buffer.
+        let payload = each_word(self.frame().payload);
+        for i in 0..MAX_PAYLOAD_WORDS {
             if mask & 1 << i != 0 {
-                payload.0[i] = words.0[i];
+                payload[i].set(words.0[i]);
             }
         }
-        self.frame().payload.set(payload);
     }
     #[inline(always)]
     pub fn world_ray_origin(&self) -> Vec3 {
@@ -173,6 +188,6 @@ impl Cx {
     }
     #[inline(always)]
     pub fn report(&self, t: f32, kind: u32, count: usize, attributes: &WordBuffer) -> bool {
-        self.frame().executor.report(t, (kind & 0x7f) as u8, count, attributes)
+        self.frame().executor.report(t, kind as u8, count, attributes)
     }
 }

@@ -12,9 +12,7 @@ mod host;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use host::{Cx, ParamsBase, load_param};
 
-use crate::words::WordBuffer;
-
-/// The arguments of a trace call, all derived from the ray and the ray type.
+/// The arguments of a trace call but for the payload, all derived from the ray and the ray type.
 #[derive(Clone, Copy, Debug)]
 pub struct TraceCall {
     pub payload_type: u32,
@@ -24,5 +22,8 @@ pub struct TraceCall {
     pub sbt_offset: u32,
     pub sbt_stride: u32,
     pub miss_index: u32,
-    pub payload: WordBuffer,
+    /// Payload words that the caller gives, and those that it takes back: bit `i` is word `i`. For the executor's checks;
+    /// the device has them in the payload type.
+    pub caller_writes: u32,
+    pub caller_reads: u32,
 }

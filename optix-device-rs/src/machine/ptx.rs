@@ -169,7 +169,7 @@ impl Cx {
     }
 
     #[inline(always)]
-    pub fn trace(&self, call: &TraceCall) -> WordBuffer {
+    pub fn trace(&self, call: &TraceCall, payload: WordBuffer) -> WordBuffer {
         let [
             mut p0,
             mut p1,
@@ -203,7 +203,7 @@ impl Cx {
             mut p29,
             mut p30,
             mut p31,
-        ] = call.payload.0;
+        ] = payload.0;
         let ray = &call.ray;
         // Registers of words the payload does not have are declared in the block and never read. No brace stands alone on
         // a line: to who reads the PTX, that is the end of an entry.
@@ -464,6 +464,7 @@ impl Cx {
     #[inline(always)]
     pub fn report(&self, t: f32, kind: u32, count: usize, attributes: &WordBuffer) -> bool {
         let [a0, a1, a2, a3, a4, a5, a6, a7, ..] = attributes.0;
+        let kind = kind & 0x7f;
         let mut accepted = 0u32;
         macro_rules! arm {
             ($count:expr, [$($used:ident)*] [$($unused:ident)*]) => {

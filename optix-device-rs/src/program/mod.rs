@@ -150,7 +150,7 @@ impl<P, A: Attributes> Intersection<P, A> {
     pub fn report(&self, t: f32, kind: u8, attributes: A) -> bool {
         let mut words = WordBuffer::ZERO;
         attributes.store(&mut words);
-        self.cx.report(t, kind as u32 & 0x7f, A::WORDS, &words)
+        self.cx.report(t, kind as u32, A::WORDS, &words)
     }
 }
 

@@ -11,7 +11,7 @@ use crate::words::WordBuffer;
 fn trace<P: HasRay<R>, R: Payload>(cx: &Cx, world: Traversable, ray: Ray, payload: R::FromCaller) -> R::AtCaller {
     let mut words = WordBuffer::ZERO;
     payload.store(&mut words);
-    let words = cx.trace(&TraceCall {
+    let call = TraceCall {
         payload_type: P::PAYLOAD_TYPE,
         payload_words: R::WORDS,
         traversable: world.to_raw(),
@@ -19,9 +19,10 @@ fn trace<P: HasRay<R>, R: Payload>(cx: &Cx, world: Traversable, ray: Ray, payloa
         sbt_offset: <P as HasRay<R>>::INDEX,
         sbt_stride: P::RAY_TYPES,
         miss_index: <P as HasRay<R>>::INDEX,
-        payload: words,
-    });
-    R::AtCaller::load(&words)
+        caller_writes: <R::FromCaller as Part>::MASK,
+        caller_reads: <R::AtCaller as Part>::MASK,
+    };
+    R::AtCaller::load(&cx.trace(&call, words))
 }
 
 macro_rules! may_trace {

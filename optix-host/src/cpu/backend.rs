@@ -14,15 +14,22 @@ use std::sync::Arc;
 /// The CPU.
 pub(crate) struct CpuBackend {
     id: DeviceId,
+    checked: bool,
 }
 
 impl CpuBackend {
     pub fn new() -> Self {
-        Self { id: next_device_id() }
+        Self { id: next_device_id(), checked: false }
+    }
+
+    /// One that ends a launch, with the rule in the error, where a program does what the guide calls undefined.
+    pub fn checked() -> Self {
+        Self { checked: true, ..Self::new() }
     }
 
     pub fn description(&self) -> String {
-        format!("CPU executor, {} threads", rayon::current_num_threads())
+        let checked = if self.checked { ", checked" } else { "" };
+        format!("CPU executor, {} threads{checked}", rayon::current_num_threads())
     }
 }
 
@@ -66,7 +73,7 @@ impl Backend for CpuBackend {
     }
 
     fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable) -> Result<Box<dyn Linked>> {
-        Ok(Box::new(CpuPipeline { plan, sbt }))
+        Ok(Box::new(CpuPipeline { plan, sbt, checked: self.checked }))
     }
 }
 
@@ -108,11 +115,12 @@ fn boxes(input: &BuildInput) -> Option<AabbInput> {
 struct CpuPipeline {
     plan: Arc<Plan>,
     sbt: ShaderBindingTable,
+    checked: bool,
 }
 
 impl Linked for CpuPipeline {
     fn launch(&self, raygen: usize, params: &[u8], dimensions: [u32; 3]) -> Result<Box<dyn Running>> {
-        machine::run(&Job::new(&self.plan, &self.sbt, params, raygen, dimensions))?;
+        machine::run(&Job::new(&self.plan, &self.sbt, params, raygen, dimensions, self.checked))?;
         Ok(Box::new(Done))
     }
 

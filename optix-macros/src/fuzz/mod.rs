@@ -62,7 +62,8 @@ fn mutate(tokens: TokenStream, random: &mut Random, seeds: &Seeds) -> TokenStrea
             let (_, arguments, item) = random.of(&seeds.0);
             let mut donor: Vec<TokenTree> = [item, arguments][random.below(2)].clone().into_iter().collect();
             for _ in 0..random.below(4) {
-                let inner = donor.iter().filter_map(|t| if let TokenTree::Group(g) = t { Some(g.stream()) } else { None });
+                let inner =
+                    donor.iter().filter_map(|t| if let TokenTree::Group(g) = t { Some(g.stream()) } else { None });
                 let inner: Vec<_> = inner.collect();
                 if inner.is_empty() {
                     break;
@@ -125,7 +126,8 @@ fn fuzz() {
             continue;
         }
         // Mostly the macro the input was written for.
-        let makro = if random.below(6) == 0 { random.of(&MACROS) } else { MACROS.iter().find(|m| m.0 == name).expect("known") };
+        let makro =
+            if random.below(6) == 0 { random.of(&MACROS) } else { MACROS.iter().find(|m| m.0 == name).expect("known") };
         run(makro, &arguments, &item);
         count += 1;
     }

@@ -13,7 +13,8 @@ impl Seeds {
         let mut seeds = Self::default();
         for folder in ["ui/pass", "ui/common"] {
             let folder = format!("{}/../tests/macros/{folder}", env!("CARGO_MANIFEST_DIR"));
-            let mut files: Vec<_> = std::fs::read_dir(folder).expect("the suite").map(|f| f.expect("a file").path()).collect();
+            let mut files: Vec<_> =
+                std::fs::read_dir(folder).expect("the suite").map(|f| f.expect("a file").path()).collect();
             files.sort();
             for file in files {
                 let text = std::fs::read_to_string(&file).expect("a program");

@@ -27,11 +27,15 @@ pub fn expand(kind: Kind, arguments: TokenStream, item: TokenStream) -> TokenStr
             return quote!(#errors #item);
         }
     };
-    let other = |a: &Attribute| a.path().segments.last().and_then(|s| Kind::ALL.into_iter().find(|k| s.ident == k.attribute()));
+    let other =
+        |a: &Attribute| a.path().segments.last().and_then(|s| Kind::ALL.into_iter().find(|k| s.ident == k.attribute()));
     for second in function.attrs.extract_if(.., |a| other(a).is_some()) {
         errors.at(
             second,
-            format!("a program is of one kind, and `#[{}]` already says which: write a function for each", kind.attribute()),
+            format!(
+                "a program is of one kind, and `#[{}]` already says which: write a function for each",
+                kind.attribute()
+            ),
         );
     }
     let program = model::Program::new(kind, krate.clone(), &function, &mut errors);

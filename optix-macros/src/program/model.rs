@@ -164,7 +164,10 @@ impl Program {
         if sig.receiver().is_none() && is_in_impl(sig) {
             errors.push(Error::new(
                 sig.ident.span(),
-                format!("{} is a free function, outside any `impl`: name the types that `Self` stands for", kind.phrase()),
+                format!(
+                    "{} is a free function, outside any `impl`: name the types that `Self` stands for",
+                    kind.phrase()
+                ),
             ));
         }
         let (pipeline, hits) = context?;
@@ -275,7 +278,8 @@ fn only_calls(tokens: TokenStream, ident: &Ident, calls: &mut Vec<Ident>) -> boo
                 return true;
             }
             let after_fn = i > 0 && matches!(&tokens[i - 1], TokenTree::Ident(word) if word == "fn");
-            let called = matches!(tokens.get(i + 1), Some(TokenTree::Group(g)) if g.delimiter() == Delimiter::Parenthesis);
+            let called =
+                matches!(tokens.get(i + 1), Some(TokenTree::Group(g)) if g.delimiter() == Delimiter::Parenthesis);
             if called && !after_fn {
                 calls.push(found.clone());
             }

@@ -17,9 +17,10 @@ const RUNS: usize = 5;
 const MOST: Duration = Duration::from_secs(5);
 
 fn shaders() -> String {
-    let mut text = "use optix_device_rs::prelude::*;\n#[launch_params]\npub struct Frame {\n    pub film: SliceMut2d<Vec4>,\n    \
+    let mut text =
+        "use optix_device_rs::prelude::*;\n#[launch_params]\npub struct Frame {\n    pub film: SliceMut2d<Vec4>,\n    \
                     pub world: Traversable,\n    #[bound]\n    pub depth: u32,\n}\n"
-        .to_owned();
+            .to_owned();
     for i in 0..PAYLOADS {
         // The first is shaded; the others look for occlusion, so that a material needs one closest-hit program.
         let shaded = if i == 0 { ", closesthit" } else { "" };
@@ -59,7 +60,9 @@ fn shaders() -> String {
          rg.trace::<Payload0>(rg.params().world(), Ray::new(Vec3::ZERO, Vec3::X), start);\n    \
          rg.params().film().set(rg.launch_index().xy(), back.light.extend(1.0));\n}\n",
     );
-    text.push_str("pipeline! {\n    pub struct All {\n        params: Frame,\n        raygen: [camera],\n        rays: { ");
+    text.push_str(
+        "pipeline! {\n    pub struct All {\n        params: Frame,\n        raygen: [camera],\n        rays: { ",
+    );
     for i in 0..RAYS {
         let _ = write!(text, "Payload{i} {{ miss: sky{i} }}, ");
     }

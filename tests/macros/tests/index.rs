@@ -33,7 +33,8 @@ fn root() -> PathBuf {
 fn sources(folder: &Path) -> BTreeMap<String, String> {
     let files = fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
     let rust = files.filter(|path| path.extension().is_some_and(|e| e == "rs"));
-    rust.map(|path| (path.file_stem().unwrap().to_str().unwrap().to_owned(), fs::read_to_string(&path).unwrap())).collect()
+    rust.map(|path| (path.file_stem().unwrap().to_str().unwrap().to_owned(), fs::read_to_string(&path).unwrap()))
+        .collect()
 }
 
 /// The lines of a table, without comments.
@@ -61,7 +62,8 @@ fn cases() -> Vec<Case> {
             .unwrap_or_else(|| panic!("ui/{name}.rs begins with `// H024, H022: what`, not with `{first}`"));
         let module = format!("\nmod {name} {{\n");
         let twin = pass.iter().find(|(_, text)| text.contains(&module));
-        let twin = twin.unwrap_or_else(|| panic!("no program in ui/pass has `mod {name}`, the case put right")).0.clone();
+        let twin =
+            twin.unwrap_or_else(|| panic!("no program in ui/pass has `mod {name}`, the case put right")).0.clone();
         Case { ids: ids.split(", ").map(str::to_owned).collect(), what: what.to_owned(), twin, name, source }
     };
     sources(&root().join("ui")).into_iter().map(case).collect()
@@ -83,15 +85,21 @@ fn page(rules: &[Rule], cases: &[Case]) -> String {
         let of_rule = cases.iter().filter(|case| case.ids.contains(&rule.id));
         let fails: Vec<_> =
             of_rule.clone().map(|case| format!("[{0}](../tests/macros/ui/{0}.rs)", case.name)).collect();
-        let mut passes: Vec<_> = of_rule.map(|case| format!("[{0}](../tests/macros/ui/pass/{0}.rs)", case.twin)).collect();
+        let mut passes: Vec<_> =
+            of_rule.map(|case| format!("[{0}](../tests/macros/ui/pass/{0}.rs)", case.twin)).collect();
         passes.sort();
         passes.dedup();
         let _ = writeln!(page, "| {} | {} | {} | {} |", rule.id, rule.text, fails.join(", "), passes.join(", "));
     }
     page.push_str("\n## Cases\n\n| case | what holds | rules |\n| --- | --- | --- |\n");
     for case in cases {
-        let _ =
-            writeln!(page, "| [{0}](../tests/macros/ui/{0}.stderr) | {1} | {2} |", case.name, case.what, case.ids.join(", "));
+        let _ = writeln!(
+            page,
+            "| [{0}](../tests/macros/ui/{0}.stderr) | {1} | {2} |",
+            case.name,
+            case.what,
+            case.ids.join(", ")
+        );
     }
     page.push_str(
         "\n## Device functions\n\nWhich kinds of program have which method; every other call is among the cases above.\n\n\
@@ -117,7 +125,8 @@ fn contracts() {
     for case in &cases {
         for id in &case.ids {
             let rule = rules.iter().find(|rule| rule.id == *id);
-            let rule = rule.unwrap_or_else(|| panic!("ui/{}.rs names `{id}`, which checklist.tsv does not have", case.name));
+            let rule =
+                rule.unwrap_or_else(|| panic!("ui/{}.rs names `{id}`, which checklist.tsv does not have", case.name));
             assert!(rule.open.is_empty(), "ui/{}.rs covers {id}: checklist.tsv says `{}`", case.name, rule.open);
         }
     }
@@ -139,7 +148,11 @@ fn contracts() {
 fn messages() {
     for case in cases() {
         let path = root().join(format!("ui/{}.stderr", case.name));
-        assert!(path.exists(), "ui/{}.stderr is missing: `TRYBUILD=overwrite cargo test -p optix-macro-tests`", case.name);
+        assert!(
+            path.exists(),
+            "ui/{}.stderr is missing: `TRYBUILD=overwrite cargo test -p optix-macro-tests`",
+            case.name
+        );
     }
     for path in fs::read_dir(root().join("ui")).unwrap().map(|file| file.unwrap().path()) {
         let source = path.with_extension("rs");

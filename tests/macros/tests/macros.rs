@@ -443,6 +443,7 @@ fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer)
         params: std::ptr::NonNull::from(&settings).cast(),
         record: std::ptr::NonNull::from(record).cast(),
         payload: &payload,
+        watch: None,
         ray: Ray::new(Vec3::ZERO, Vec3::X),
         object_ray: (Vec3::ZERO, Vec3::X),
         hit: HitState::NONE,
@@ -483,4 +484,22 @@ fn entries_move_the_payload_in_and_out() {
     let words = std::array::from_fn(|i| i as u32);
     let _ = run(description.hitgroups[0].rays[1].closesthit.unwrap(), &paint, WordBuffer(words));
     let _ = run(description.raygen[0].entry, &paint, payload);
+}
+
+/// Has no `Debug`.
+#[derive(Clone, Copy, Words)]
+pub struct Opaque(u32);
+
+#[derive(Payload)]
+pub struct Shown {
+    #[payload(write(caller), read(closesthit))]
+    pub seed: u32,
+    #[payload(write(caller), read(closesthit))]
+    pub opaque: Opaque,
+}
+
+#[test]
+fn parts_show_what_they_can() {
+    let part = ShownFromCaller { seed: 7, opaque: Opaque(8) };
+    assert_eq!(format!("{part:?}"), "ShownFromCaller { seed: 7, opaque: .. }");
 }

@@ -12,7 +12,11 @@ pub struct Radiance {
 
 #[raygen]
 pub fn camera<P: Pipeline>(rg: &RayGen<P>) {
-    rg.trace::<Radiance>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), RadianceFromCaller { rng: Pcg32::new(1, 2) });
+    rg.trace::<Radiance>(
+        Traversable::NULL,
+        Ray::new(Vec3::ZERO, Vec3::X),
+        RadianceFromCaller { rng: Pcg32::new(1, 2) },
+    );
 }
 
 fn main() {}

@@ -65,17 +65,19 @@ fn manifest(session: &Session<'_>, device_crate: &Package) -> Result<String, Err
     Ok(format!(
         "# Written by optix-toolchain; see its `verify` module.\n\
          [package]\n\
-         name = \"optix-facts\"\n\
+         name = \"optix-facts-{}\"\n\
          version = \"0.0.0\"\n\
          edition = \"2024\"\n\
          publish = false\n\n\
-         {}\n\
+         {dependency}\n\
          [dependencies.{DEVICE_CRATE}]\n\
          {of_device_crate}\n\n\
-         {}\n\
+         {profile}\n\
          [workspace]\n",
-        dependency(session.shaders, &session.package),
-        profile(session.shaders)
+        // Programs of one name would overwrite each other in the folder that builds share.
+        session.own.file_name().unwrap_or_default().display(),
+        dependency = dependency(session.shaders, &session.package),
+        profile = profile(session.shaders),
     ))
 }
 

@@ -1,4 +1,5 @@
 //! Copies of the fixture in folders of their own.
+#![allow(dead_code, reason = "each test is a crate of its own and uses a part")]
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -79,7 +79,8 @@ impl Node {
 pub const STACK: usize = 96;
 const MAX_DEPTH: usize = STACK / (WIDTH - 1);
 
-/// An 8-wide hierarchy over boxes; node 0 is the root. Empty if nothing is active.
+/// An 8-wide hierarchy over boxes; node 0 is the root. Without nodes if nothing is active, or if what it is over is so
+/// little that it is tested directly.
 #[derive(Clone, Debug)]
 pub struct Bvh {
     pub nodes: Vec<Node>,
@@ -119,6 +120,11 @@ impl Bvh {
         }
         nodes.shrink_to_fit();
         Self { nodes, bounds: *plan.bounds(plan.root()) }
+    }
+
+    /// No nodes, just a box around everything.
+    pub fn bounds_only(boxes: &[Aabb]) -> Self {
+        Self { nodes: Vec::new(), bounds: boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(b)) }
     }
 
     pub fn memory_bytes(&self) -> usize {

@@ -92,6 +92,7 @@ struct Part {
 #[derive(Debug)]
 pub(super) enum Content {
     /// A leaf's payload is the index of its block, and its number of triangles less 1 in the highest 3 of 31 bits.
+    /// Without nodes, all blocks are tested, and all but the last are full.
     Triangles { blocks: Vec<Block>, inputs: Vec<TriangleInput> },
     /// A leaf's payload is the primitive, counted over all inputs.
     Custom { inputs: Vec<AabbInput> },
@@ -99,6 +100,9 @@ pub(super) enum Content {
 
 /// Bits of a triangle leaf's payload that hold the block.
 const BLOCK_BITS: u32 = 28;
+
+/// Up to this many triangles have no nodes: testing two blocks is less work than a node and the blocks it leads to.
+pub(super) const DIRECT_TRIANGLES: usize = 2 * WIDTH;
 
 /// The block of a triangle leaf and the mask of its lanes in use.
 #[inline(always)]
@@ -132,10 +136,16 @@ impl Gas {
             inputs.iter().flat_map(|input| (0..input.len()).map(|i| input.triangle(i))).collect();
         let boxes: Vec<Aabb> = triangles.iter().map(|corners| Aabb::around(corners)).collect();
         let mut blocks = Vec::with_capacity(triangles.len() / 4);
-        let bvh = Bvh::build(&boxes, TRIANGLE_LEAF, |primitives| {
-            blocks.push(Block::new(primitives, &triangles));
-            (blocks.len() - 1) as u32 | (primitives.len() as u32 - 1) << BLOCK_BITS
-        });
+        let bvh = if triangles.len() <= DIRECT_TRIANGLES {
+            let all: Vec<u32> = (0..triangles.len() as u32).collect();
+            blocks.extend(all.chunks(WIDTH).map(|primitives| Block::new(primitives, &triangles)));
+            Bvh::bounds_only(&boxes)
+        } else {
+            Bvh::build(&boxes, TRIANGLE_LEAF, |primitives| {
+                blocks.push(Block::new(primitives, &triangles));
+                (blocks.len() - 1) as u32 | (primitives.len() as u32 - 1) << BLOCK_BITS
+            })
+        };
         blocks.shrink_to_fit();
         Ok(table.finish(bvh, Content::Triangles { blocks, inputs }))
     }
@@ -194,6 +204,13 @@ impl Gas {
         inputs[input].boxes.get(local).copied()
     }
 
+    /// The corners of the triangle in a lane of a block; see [`Found::slot`](super::state::Found::slot).
+    #[inline]
+    pub(super) fn triangle_in(&self, slot: u32) -> Option<[[f32; 3]; 3]> {
+        let Content::Triangles { blocks, .. } = &self.content else { return None };
+        Some(blocks.get(slot as usize / WIDTH)?.triangle(slot as usize % WIDTH))
+    }
+
     /// Heap bytes of nodes, blocks and tables, and of the inputs, which are kept for the accessors.
     pub fn memory_bytes(&self) -> usize {
         let content = match &self.content {
@@ -212,7 +229,10 @@ impl Gas {
     /// The index that programs see of a primitive counted over all inputs.
     #[inline]
     pub(super) fn primitive_index(&self, primitive: u32) -> u32 {
-        let part = self.parts[self.parts.partition_point(|p| p.first_primitive <= primitive) - 1];
+        let part = match &self.parts[..] {
+            [only] => only,
+            parts => &parts[parts.partition_point(|p| p.first_primitive <= primitive) - 1],
+        };
         primitive - part.first_primitive + part.primitive_index_offset
     }
 

@@ -105,6 +105,11 @@ impl Instance {
 pub struct Placed {
     pub instance: Instance,
     pub(super) inverse: Affine,
+    /// Its space is its parent's.
+    pub(super) identity: bool,
+    /// Object to world and back for an instance in the root of a trace, as [`InstancePath`](super::InstancePath) gives them.
+    pub(super) to_world: [f32; 12],
+    pub(super) to_object: [f32; 12],
 }
 
 impl Placed {
@@ -144,7 +149,13 @@ impl Ias {
             slack = slack.max(transform.norm() * inverse.norm() * (instance.child.slack() + 1.0));
             max_sbt_offset = max_sbt_offset.max(instance.sbt_offset + instance.child.max_sbt_offset());
             depth = depth.max(1 + instance.child.depth());
-            placed.push(Placed { instance, inverse });
+            placed.push(Placed {
+                identity: transform == Affine::IDENTITY,
+                to_world: Affine::IDENTITY.after(&transform).to_f32(),
+                to_object: inverse.after(&Affine::IDENTITY).to_f32(),
+                instance,
+                inverse,
+            });
         }
         let bvh = Bvh::build(&boxes, SINGLE_LEAF, |instances| instances[0]);
         Ok(Self { bvh, placed, slack: slack as f32, max_sbt_offset, depth })

@@ -7,7 +7,7 @@
 //! | `gas`, `ias` | structures and their inputs, checked |
 //! | `binary`, `collapse`, `bvh` | the 8-wide hierarchy: built by obvhs, collapsed at least cost, laid out |
 //! | `ray`, `simd`, `triangle` | the arithmetic: box and triangle tests, their error bounds |
-//! | `trace`, `state`, `program`, `path` | traversal, any-hit, reports, hits |
+//! | `trace`, `stack`, `state`, `program`, `path` | traversal, any-hit, reports, hits |
 
 mod aabb;
 mod binary;
@@ -21,6 +21,7 @@ mod path;
 mod program;
 mod ray;
 mod simd;
+mod stack;
 mod state;
 mod trace;
 mod transform;

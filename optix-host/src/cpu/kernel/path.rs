@@ -56,8 +56,21 @@ impl<'a> InstancePath<'a> {
         })
     }
 
+    /// The instance, where there is just one.
+    #[inline]
+    fn only(&self) -> Option<&'a Placed> {
+        match (self.root, self.indices()) {
+            (Accel::Ias(ias), &[index]) => Some(&ias.placed[index as usize]),
+            _ => None,
+        }
+    }
+
     /// The innermost instance; `None` where the root is a GAS.
+    #[inline]
     pub fn innermost(&self) -> Option<&'a Placed> {
+        if let Some(placed) = self.only() {
+            return Some(placed);
+        }
         self.instances().last()
     }
 
@@ -72,14 +85,22 @@ impl<'a> InstancePath<'a> {
     }
 
     /// Object to world, row-major 3x4: the product of all transforms, formed in `f64` and rounded once.
+    #[inline]
     pub fn object_to_world(&self) -> [f32; 12] {
+        if let Some(placed) = self.only() {
+            return placed.to_world;
+        }
         self.instances()
             .fold(Affine::IDENTITY, |all, placed| all.after(&Affine::from_f32(&placed.instance.transform)))
             .to_f32()
     }
 
     /// World to object, as [`InstancePath::object_to_world`].
+    #[inline]
     pub fn world_to_object(&self) -> [f32; 12] {
+        if let Some(placed) = self.only() {
+            return placed.to_object;
+        }
         self.instances().fold(Affine::IDENTITY, |all, placed| placed.inverse.after(&all)).to_f32()
     }
 }

@@ -52,6 +52,14 @@ pub struct Candidate<'s> {
     pub hit_kind: u8,
     /// Triangles: `u`, `v` as bits, the weights of the second and third corner. Unused words are 0.
     pub attributes: [u32; 8],
+    pub(super) slot: u32,
+}
+
+impl Candidate<'_> {
+    /// The corners of the triangle, in object space; `None` for a custom primitive.
+    pub fn triangle_vertices(&self) -> Option<[[f32; 3]; 3]> {
+        self.site.gas.triangle_in(self.slot)
+    }
 }
 
 /// The closest accepted hit of a trace.
@@ -69,6 +77,7 @@ pub struct Hit<'a> {
     pub sbt_gas_index: u32,
     /// Hit-group record of the whole SBT (guide §7.3).
     pub sbt_index: u32,
+    pub(super) slot: u32,
     pub gas: &'a Gas,
     pub path: InstancePath<'a>,
 }
@@ -79,9 +88,9 @@ impl Hit<'_> {
         [self.attributes[0], self.attributes[1]].map(f32::from_bits)
     }
 
-    /// The corners of the triangle that was hit, in object space.
+    /// The corners of the triangle that was hit, in object space; `None` for a custom primitive.
     pub fn triangle_vertices(&self) -> Option<[[f32; 3]; 3]> {
-        self.gas.triangle_vertices(self.sbt_gas_index, self.primitive_index)
+        self.gas.triangle_in(self.slot)
     }
 }
 
@@ -115,12 +124,17 @@ impl Reporter<'_, '_> {
             primitive: self.primitive,
             record: self.site.sbt_gas_index,
             instance_offset: self.instance_offset,
+            slot: 0,
             gas: self.gas,
         };
         let answer = match self.verdict {
-            Verdict::AnyHit => {
-                programs.any_hit(&Candidate { site: *self.site, t, hit_kind: found.hit_kind, attributes: words })
-            }
+            Verdict::AnyHit => programs.any_hit(&Candidate {
+                site: *self.site,
+                t,
+                hit_kind: found.hit_kind,
+                attributes: words,
+                slot: found.slot,
+            }),
             _ => AnyHit::Accept,
         };
         self.state.settle(answer, found, self.path)

@@ -1,9 +1,8 @@
 //! Rays: the query of a trace call, and what is derived from it once for each space it enters.
 
-use glam::Vec3A;
+use glam::{BVec3A, Vec3A};
 
 use super::aabb::Aabb;
-use super::bvh::Lanes;
 
 /// The arguments of a trace call (guide §13.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +62,7 @@ pub enum Axis {
 /// three floats whichever triangle it is read from.
 #[derive(Clone, Copy, Debug)]
 pub struct ShearRay {
+    /// The origin's elements in the order of `axes`.
     pub origin: [f32; 3],
     /// The axis of the largest direction element last; the first two keep the winding as seen along the ray.
     pub axes: [Axis; 3],
@@ -72,27 +72,39 @@ pub struct ShearRay {
     pub major: f64,
 }
 
-/// What the box test needs of a ray, each number in all lanes of a register. See [`Frame::new`] for why no box is missed.
+/// What the box test needs of a ray. See [`Frame::boxes`] for why no box is missed.
 ///
 /// Distances here are *depths*: lengths along the major axis, `t * |d[major]|`, in the units of the space.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxRay {
     /// Origins moved outwards by the margin, for the near and the far plane of each axis.
-    pub near_origin: [Lanes; 3],
-    pub far_origin: [Lanes; 3],
+    pub near_origin: [f32; 3],
+    pub far_origin: [f32; 3],
     /// Reciprocal slopes against depth: never 0, infinite or NaN.
-    pub inverse: [Lanes; 3],
+    pub inverse: [f32; 3],
     /// Whether the near plane of each axis is the upper one.
     pub backward: [bool; 3],
-    pub depth_min: Lanes,
+    pub depth_min: f32,
 }
 
-/// A ray prepared for one space and one structure in it.
+/// A ray prepared for one space.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     pub shear: ShearRay,
-    pub boxes: BoxRay,
+    origin: Vec3A,
+    /// As in [`BoxRay`].
+    inverse: Vec3A,
+    backward: BVec3A,
+    /// A depth that every hit with `t >= tmin` reaches.
+    pub depth_min: f32,
 }
+
+/// The axes of a shear, by the major axis and whether the ray runs down it.
+const SHEARS: [[[Axis; 3]; 2]; 3] = [
+    [[Axis::Y, Axis::Z, Axis::X], [Axis::Z, Axis::Y, Axis::X]],
+    [[Axis::Z, Axis::X, Axis::Y], [Axis::X, Axis::Z, Axis::Y]],
+    [[Axis::X, Axis::Y, Axis::Z], [Axis::Y, Axis::X, Axis::Z]],
+];
 
 /// Of the reach: `16 e`.
 const MARGIN: f32 = 1.0 / (1 << 20) as f32;
@@ -102,7 +114,58 @@ const MIN_SLOPE: f32 = 1.0 / (1u64 << 40) as f32;
 const MAX_REACH: f32 = f32::MAX / 8.0;
 
 impl Frame {
-    /// Prepares `ray` for the structure with these `bounds`. `None` if it misses for sure.
+    /// Prepares a ray. `None` for one that misses everything: with an element that is not finite, or without direction.
+    #[inline(always)]
+    pub fn new(origin: &[f32; 3], direction: &[f32; 3], tmin: f32) -> Option<Self> {
+        // Element by element: a wider load would have to wait until the elements, just stored, have left the core.
+        let load = |v: &[f32; 3]| Vec3A::new(v[0], v[1], v[2]);
+        let (origin, direction) = (load(origin), load(direction));
+        let magnitude = direction.abs();
+        let length = magnitude.max_element();
+        if !(origin.is_finite() && direction.is_finite() && length > 0.0) {
+            return None;
+        }
+        // The first axis of the greatest length, without branches: they would be mispredicted every other time.
+        let [x, y, _] = magnitude.to_array();
+        let (not_x, not_y) = (usize::from(x != length), usize::from(y != length));
+        let axis = not_x + (not_x & not_y);
+        let major = direction[axis];
+
+        let slope = direction / length;
+        let axes = SHEARS[axis][usize::from(major < 0.0)];
+        // Division is symmetric in sign: these are the quotients by the major element.
+        let sign = major.to_bits() & (1 << 31);
+        let quotient = |a: Axis| f32::from_bits(slope[a as usize].to_bits() ^ sign);
+        let shear = ShearRay {
+            origin: [origin[axes[0] as usize], origin[axes[1] as usize], origin[axes[2] as usize]],
+            axes,
+            slope: [quotient(axes[0]), quotient(axes[1])],
+            major: f64::from(major),
+        };
+
+        // Not from the rounded slope, which would take another division after the first.
+        let inverse = (length / magnitude).min(Vec3A::splat(1.0 / MIN_SLOPE)).copysign(direction);
+        let t = (f64::from(tmin) - SMALLEST).max(0.0);
+        Some(Self {
+            shear,
+            origin,
+            inverse,
+            backward: inverse.cmplt(Vec3A::ZERO),
+            depth_min: (t * f64::from(length) * (1.0 - DEPTH_SLACK)) as f32,
+        })
+    }
+
+    /// The largest distance on any axis between the origin and a corner of `bounds`. `None` if the structure with these
+    /// bounds is missed for sure: it is empty, or so far away that differences of coordinates could overflow.
+    #[inline(always)]
+    pub fn reach(&self, bounds: &Aabb) -> Option<f32> {
+        let (low, high) = (Vec3A::from_array(bounds.min), Vec3A::from_array(bounds.max));
+        let reach = (low - self.origin).abs().max((high - self.origin).abs()).max_element();
+        // Infinite for an empty box.
+        (reach <= MAX_REACH).then_some(reach)
+    }
+
+    /// Prepares the box tests of the structure with these `bounds`. `None` if it is missed for sure.
     ///
     /// # No box is missed
     ///
@@ -118,66 +181,28 @@ impl Frame {
     /// (signs of errors left out) and decides exactly on these numbers. So there are exact weights `w_i >= 0`, sum 1,
     /// with `sum w_i x_i = sum w_i y_i = 0`; it reports the depth `h = sum w_i z_i`. The point `p = sum w_i a_i` lies in
     /// every box around the triangle and `|p_x - s_x h| <= 6 e R`, the same for `y`, and `|p_z - h| <= e R`. Hence a
-    /// box widened by `6 e R` on all sides holds the ray's point at depth `h`. The slab test computes
-    /// `fl(fl(lo - o') * fl(1 / s))` with three roundings, a relative error of at most `3.01 e` of a length that is at
-    /// most `R`: `3.01 e R` more. Raising small slopes adds `2^-40 R`. So a margin of `10 e R` is enough; `16 e R` is
-    /// used, and `2^-120` is added so that rounding of denormal numbers is covered as well. The margin is put into the
-    /// origin, where it costs nothing per box.
+    /// box widened by `6 e R` on all sides holds the ray's point at depth `h`. The slab test uses the slopes `s'` before
+    /// rounding, which moves that point by `e R`. It computes `fl(fl(lo - o') * fl(1 / s'))` with three roundings, a
+    /// relative error of at most `3.01 e` of a length that is at most `R`: `3.01 e R` more. Raising small slopes adds
+    /// `2^-40 R`. So a margin of `11 e R` is enough; `16 e R` is used, and `2^-120` is added so that rounding of denormal
+    /// numbers is covered as well. The margin is put into the origin, where it costs nothing per box.
     ///
     /// `slack` multiplies the margin: 1 for a structure of primitives, more where boxes stand for transformed content
     /// (see [`Ias`](super::Ias)).
     #[inline(always)]
-    pub fn new(ray: &Ray, tmin: f32, bounds: &Aabb, slack: f32) -> Option<Self> {
-        let (origin, direction) = (Vec3A::from_array(ray.origin), Vec3A::from_array(ray.direction));
-        let (low, high) = (Vec3A::from_array(bounds.min), Vec3A::from_array(bounds.max));
-        let magnitude = direction.abs();
-        let reach = (low - origin).abs().max((high - origin).abs()).max_element();
-        let length = magnitude.max_element();
-        // `reach` is infinite for an empty box.
-        if !(origin.is_finite() && direction.is_finite() && length > 0.0 && reach <= MAX_REACH) {
-            return None;
-        }
-        let axis = match magnitude.to_array() {
-            [x, y, _] if x == length && x >= y => Axis::X,
-            [_, y, _] if y == length => Axis::Y,
-            _ => Axis::Z,
-        };
-        let major = ray.direction[axis as usize];
-
-        let slope = direction / length;
-        let axes = match (axis, major < 0.0) {
-            (Axis::X, false) => [Axis::Y, Axis::Z, Axis::X],
-            (Axis::X, true) => [Axis::Z, Axis::Y, Axis::X],
-            (Axis::Y, false) => [Axis::Z, Axis::X, Axis::Y],
-            (Axis::Y, true) => [Axis::X, Axis::Z, Axis::Y],
-            (Axis::Z, false) => [Axis::X, Axis::Y, Axis::Z],
-            (Axis::Z, true) => [Axis::Y, Axis::X, Axis::Z],
-        };
-        // Division is symmetric in sign: these are the quotients by the major element.
-        let [x, y] = [axes[0], axes[1]].map(|a| slope[a as usize].to_bits() ^ (major.to_bits() & (1 << 31)));
-        let shear = ShearRay {
-            origin: ray.origin,
-            axes,
-            slope: [f32::from_bits(x), f32::from_bits(y)],
-            major: f64::from(major),
-        };
-
-        let raised = Vec3A::splat(MIN_SLOPE).copysign(slope);
-        let slope = Vec3A::select(slope.abs().cmplt(Vec3A::splat(MIN_SLOPE)), raised, slope);
+    pub fn boxes(&self, bounds: &Aabb, slack: f32) -> Option<BoxRay> {
+        let reach = self.reach(bounds)?;
         let margin = (reach * MARGIN * slack).min(2.0 * reach) + 64.0 * f32::MIN_POSITIVE;
         // The second part is twice what rounding the sums below can take away.
-        let margin = Vec3A::splat(margin) + origin.abs() * f32::EPSILON;
-        let (above, below) = (origin + margin, origin - margin);
-        let backward = slope.cmplt(Vec3A::ZERO);
-        let t = (f64::from(tmin) - SMALLEST).max(0.0);
-        let boxes = BoxRay {
-            near_origin: Vec3A::select(backward, below, above).to_array().map(Lanes::splat),
-            far_origin: Vec3A::select(backward, above, below).to_array().map(Lanes::splat),
-            inverse: slope.recip().to_array().map(Lanes::splat),
-            backward: [0, 1, 2].map(|a| backward.test(a)),
-            depth_min: Lanes::splat((t * f64::from(length) * (1.0 - DEPTH_SLACK)) as f32),
-        };
-        Some(Self { shear, boxes })
+        let margin = Vec3A::splat(margin) + self.origin.abs() * f32::EPSILON;
+        let (above, below) = (self.origin + margin, self.origin - margin);
+        Some(BoxRay {
+            near_origin: Vec3A::select(self.backward, below, above).to_array(),
+            far_origin: Vec3A::select(self.backward, above, below).to_array(),
+            inverse: self.inverse.to_array(),
+            backward: [self.backward.test(0), self.backward.test(1), self.backward.test(2)],
+            depth_min: self.depth_min,
+        })
     }
 
     /// A depth that no hit with `t <= tmax` exceeds: `t` was rounded from its depth, by half an ulp.

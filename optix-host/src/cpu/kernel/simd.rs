@@ -5,7 +5,7 @@
 
 use super::bvh::{Lanes, Node, WIDTH};
 use super::ray::{BoxRay, ShearRay};
-use super::triangle::{Block, EDGE_ABSOLUTE, EDGE_RELATIVE};
+use super::triangle::{Block, EDGE_ABSOLUTE, EDGE_RELATIVE, Sheared};
 
 /// A piece of work that is compiled once for each instruction set.
 pub trait Task {
@@ -23,8 +23,9 @@ pub trait Simd: Copy {
     /// where it enters, at least `depth_min`.
     fn boxes(self, node: &Node, ray: &BoxRay, depth_max: f32, near: &mut Lanes) -> u32;
 
-    /// Bit `i` is clear only if the line of the ray surely passes beside triangle `i`.
-    fn triangles(self, block: &Block, ray: &ShearRay) -> u32;
+    /// Bit `i` is clear only if the line of the ray surely passes beside triangle `i`, or if that lies, with all its
+    /// corners, at smaller or at greater depths than `depths`. Also the corners in the ray's sheared space.
+    fn triangles(self, block: &Block, ray: &ShearRay, depths: [f32; 2]) -> (u32, Sheared);
 }
 
 /// Plain Rust.
@@ -43,7 +44,8 @@ fn min(a: f32, b: f32) -> f32 {
 }
 
 impl Simd for Portable {
-    #[inline(always)]
+    // Not inlined, as the other instruction set's is not: callers hold both, and one is never used.
+    #[inline(never)]
     fn run<T: Task>(self, task: T) -> T::Output {
         task.run(self)
     }
@@ -54,46 +56,52 @@ impl Simd for Portable {
         let planes = |upper: [bool; 3]| [0, 1, 2].map(|a| &node.planes[a][usize::from(upper[a])].0);
         let [nx, ny, nz] = planes(ray.backward);
         let [fx, fy, fz] = planes(ray.backward.map(|b| !b));
-        let [ix, iy, iz] = &ray.inverse;
-        let ([ox, oy, oz], [px, py, pz]) = (&ray.near_origin, &ray.far_origin);
+        let [ix, iy, iz] = ray.inverse;
+        let ([ox, oy, oz], [px, py, pz]) = (ray.near_origin, ray.far_origin);
         for i in 0..WIDTH {
-            let x = (nx[i] - ox.0[i]) * ix.0[i];
-            let y = (ny[i] - oy.0[i]) * iy.0[i];
-            let z = (nz[i] - oz.0[i]) * iz.0[i];
-            near.0[i] = max(max(x, y), max(z, ray.depth_min.0[i]));
-            let x = (fx[i] - px.0[i]) * ix.0[i];
-            let y = (fy[i] - py.0[i]) * iy.0[i];
-            let z = (fz[i] - pz.0[i]) * iz.0[i];
+            let x = (nx[i] - ox) * ix;
+            let y = (ny[i] - oy) * iy;
+            let z = (nz[i] - oz) * iz;
+            near.0[i] = max(max(x, y), max(z, ray.depth_min));
+            let x = (fx[i] - px) * ix;
+            let y = (fy[i] - py) * iy;
+            let z = (fz[i] - pz) * iz;
             far[i] = min(min(x, y), min(z, depth_max));
         }
         (0..WIDTH).fold(0, |mask, i| mask | (u32::from(near.0[i] <= far[i]) << i))
     }
 
     #[inline(always)]
-    fn triangles(self, block: &Block, ray: &ShearRay) -> u32 {
-        let mut sheared = [[[0.0f32; WIDTH]; 2]; 3];
+    fn triangles(self, block: &Block, ray: &ShearRay, [near, far]: [f32; 2]) -> (u32, Sheared) {
+        let mut sheared = [[Lanes::splat(0.0); 3]; 3];
         for (corner, out) in block.corners.iter().zip(&mut sheared) {
             let [x, y, z] = ray.axes.map(|a| &corner[a as usize].0);
-            let [ox, oy, oz] = ray.axes.map(|a| ray.origin[a as usize]);
+            let [ox, oy, oz] = ray.origin;
             for i in 0..WIDTH {
                 let depth = z[i] - oz;
-                out[0][i] = (x[i] - ox) - ray.slope[0] * depth;
-                out[1][i] = (y[i] - oy) - ray.slope[1] * depth;
+                out[0].0[i] = (x[i] - ox) - ray.slope[0] * depth;
+                out[1].0[i] = (y[i] - oy) - ray.slope[1] * depth;
+                out[2].0[i] = depth;
             }
         }
         let [a, b, c] = &sheared;
-        let (mut above, mut below) = (0, 0);
+        let (mut above, mut below, mut beside) = (0, 0, 0);
+        for i in 0..WIDTH {
+            let [za, zb, zc] = [a, b, c].map(|corner| if ray.major < 0.0 { -corner[2].0[i] } else { corner[2].0[i] });
+            beside |= u32::from(max(max(za, zb), zc) < near) << i;
+            beside |= u32::from(min(min(za, zb), zc) > far) << i;
+        }
         for (from, to) in [(c, b), (a, c), (b, a)] {
             for i in 0..WIDTH {
-                let p = from[0][i] * to[1][i];
-                let q = from[1][i] * to[0][i];
+                let p = from[0].0[i] * to[1].0[i];
+                let q = from[1].0[i] * to[0].0[i];
                 let value = p - q;
                 let bound = (p.abs() + q.abs()) * EDGE_RELATIVE + EDGE_ABSOLUTE;
                 above |= u32::from(value > bound) << i;
                 below |= u32::from(value < -bound) << i;
             }
         }
-        !(above & below) & 0xff
+        (!(above & below | beside) & 0xff, sheared)
     }
 }
 
@@ -131,9 +139,9 @@ mod avx2 {
         }
 
         #[inline(always)]
-        fn triangles(self, block: &Block, ray: &ShearRay) -> u32 {
+        fn triangles(self, block: &Block, ray: &ShearRay, depths: [f32; 2]) -> (u32, Sheared) {
             // SAFETY: as in `run`.
-            unsafe { triangles(block, ray) }
+            unsafe { triangles(block, ray, depths) }
         }
     }
 
@@ -150,18 +158,19 @@ mod avx2 {
 
     #[inline]
     #[target_feature(enable = "avx2,bmi1")]
-    fn slab(planes: &[Lanes; 2], upper: bool, origin: &Lanes, inverse: &Lanes) -> __m256 {
-        _mm256_mul_ps(_mm256_sub_ps(load(&planes[usize::from(upper)]), load(origin)), load(inverse))
+    fn slab(planes: &[Lanes; 2], upper: bool, origin: f32, inverse: f32) -> __m256 {
+        let distance = _mm256_sub_ps(load(&planes[usize::from(upper)]), _mm256_set1_ps(origin));
+        _mm256_mul_ps(distance, _mm256_set1_ps(inverse))
     }
 
     #[inline]
     #[target_feature(enable = "avx2,bmi1")]
     fn boxes(node: &Node, ray: &BoxRay, depth_max: f32, near: &mut Lanes) -> u32 {
         let [nx, ny, nz] =
-            [0, 1, 2].map(|a| slab(&node.planes[a], ray.backward[a], &ray.near_origin[a], &ray.inverse[a]));
+            [0, 1, 2].map(|a| slab(&node.planes[a], ray.backward[a], ray.near_origin[a], ray.inverse[a]));
         let [fx, fy, fz] =
-            [0, 1, 2].map(|a| slab(&node.planes[a], !ray.backward[a], &ray.far_origin[a], &ray.inverse[a]));
-        let enter = _mm256_max_ps(_mm256_max_ps(nx, ny), _mm256_max_ps(nz, load(&ray.depth_min)));
+            [0, 1, 2].map(|a| slab(&node.planes[a], !ray.backward[a], ray.far_origin[a], ray.inverse[a]));
+        let enter = _mm256_max_ps(_mm256_max_ps(nx, ny), _mm256_max_ps(nz, _mm256_set1_ps(ray.depth_min)));
         let leave = _mm256_min_ps(_mm256_min_ps(fx, fy), _mm256_min_ps(fz, _mm256_set1_ps(depth_max)));
         near.0 = bytemuck::cast(enter);
         _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, leave)) as u32
@@ -169,8 +178,8 @@ mod avx2 {
 
     #[inline]
     #[target_feature(enable = "avx2,bmi1")]
-    fn triangles(block: &Block, ray: &ShearRay) -> u32 {
-        let [ox, oy, oz] = ray.axes.map(|a| _mm256_set1_ps(ray.origin[a as usize]));
+    fn triangles(block: &Block, ray: &ShearRay, [near, far]: [f32; 2]) -> (u32, Sheared) {
+        let [ox, oy, oz] = ray.origin.map(|o| _mm256_set1_ps(o));
         let [sx, sy] = ray.slope.map(|s| _mm256_set1_ps(s));
         let shear = |corner: &[Lanes; 3]| {
             let [x, y, z] = ray.axes.map(|a| load(&corner[a as usize]));
@@ -178,15 +187,26 @@ mod avx2 {
             [
                 _mm256_sub_ps(_mm256_sub_ps(x, ox), _mm256_mul_ps(sx, depth)),
                 _mm256_sub_ps(_mm256_sub_ps(y, oy), _mm256_mul_ps(sy, depth)),
+                depth,
             ]
         };
         let [a, b, c] = &block.corners;
         let (a, b, c) = (shear(a), shear(b), shear(c));
+        let sheared = [a, b, c].map(|corner| corner.map(|axis| Lanes(bytemuck::cast(axis))));
 
         let sign = _mm256_set1_ps(-0.0);
+        let down = if ray.major < 0.0 { sign } else { _mm256_setzero_ps() };
+        let [za, zb, zc] = [a, b, c].map(|corner| _mm256_xor_ps(corner[2], down));
+        let deepest = _mm256_max_ps(_mm256_max_ps(za, zb), zc);
+        let nearest = _mm256_min_ps(_mm256_min_ps(za, zb), zc);
+        let beside = _mm256_or_ps(
+            _mm256_cmp_ps::<_CMP_LT_OQ>(deepest, _mm256_set1_ps(near)),
+            _mm256_cmp_ps::<_CMP_GT_OQ>(nearest, _mm256_set1_ps(far)),
+        );
+
         let (relative, absolute) = (_mm256_set1_ps(EDGE_RELATIVE), _mm256_set1_ps(EDGE_ABSOLUTE));
         // Whether the edge function is surely positive, and surely negative.
-        let side = |from: [__m256; 2], to: [__m256; 2]| {
+        let side = |from: [__m256; 3], to: [__m256; 3]| {
             let p = _mm256_mul_ps(from[0], to[1]);
             let q = _mm256_mul_ps(from[1], to[0]);
             let value = _mm256_sub_ps(p, q);
@@ -197,6 +217,7 @@ mod avx2 {
         let (u, v, w) = (side(c, b), side(a, c), side(b, a));
         let above = _mm256_or_ps(_mm256_or_ps(u.0, v.0), w.0);
         let below = _mm256_or_ps(_mm256_or_ps(u.1, v.1), w.1);
-        !(_mm256_movemask_ps(_mm256_and_ps(above, below)) as u32) & 0xff
+        let out = _mm256_movemask_ps(_mm256_or_ps(_mm256_and_ps(above, below), beside)) as u32;
+        (!out & 0xff, sheared)
     }
 }

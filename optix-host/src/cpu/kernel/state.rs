@@ -2,9 +2,10 @@
 
 use super::flags::ray_flags;
 use super::gas::Gas;
+use super::ias::Accel;
 use super::path::InstancePath;
 use super::program::{AnyHit, Hit};
-use super::ray::RayQuery;
+use super::ray::{Frame, RayQuery};
 
 /// A hit, with the numbers it is made of.
 #[derive(Clone, Copy, Debug)]
@@ -16,17 +17,20 @@ pub struct Found<'a> {
     pub primitive: u32,
     pub record: u32,
     pub instance_offset: u32,
+    /// Where a triangle's corners are at hand: its block times 8, plus its lane. 0 for custom primitives.
+    pub slot: u32,
     pub gas: &'a Gas,
 }
 
 /// The ray's interval and its closest hit.
 #[derive(Debug)]
 pub struct State<'a> {
-    pub query: RayQuery,
+    tmin: f32,
     /// Shrinks to the closest accepted hit.
     pub tmax: f32,
     /// Set by `AnyHit::Terminate` and `TERMINATE_ON_FIRST_HIT`.
     pub ended: bool,
+    first_hit_ends: bool,
     closest: Option<Found<'a>>,
     /// Where the closest hit is.
     at: InstancePath<'a>,
@@ -34,15 +38,17 @@ pub struct State<'a> {
 
 impl<'a> State<'a> {
     #[inline(always)]
-    pub fn new(query: RayQuery, at: InstancePath<'a>) -> Self {
-        Self { query, tmax: query.tmax, ended: false, closest: None, at }
+    pub fn new(query: &RayQuery, tmin: f32, root: &'a Accel) -> Self {
+        let first_hit_ends = query.flags & ray_flags::TERMINATE_ON_FIRST_HIT != 0;
+        let at = InstancePath::new(root);
+        Self { tmin, tmax: query.tmax, ended: false, first_hit_ends, closest: None, at }
     }
 
     /// Whether a candidate at `t` may become the closest hit: it lies in the closed interval, and if it ties with the
     /// closest hit it comes before that in the order of instance path and primitive.
     #[inline]
     pub fn admits(&self, t: f32, path: &InstancePath<'_>, primitive: u32) -> bool {
-        if self.ended || !(t >= self.query.tmin && t <= self.tmax) {
+        if self.ended || !(t >= self.tmin && t <= self.tmax) {
             return false;
         }
         match &self.closest {
@@ -58,22 +64,34 @@ impl<'a> State<'a> {
             return false;
         }
         self.tmax = found.t;
-        self.ended = answer == AnyHit::Terminate || self.query.flags & ray_flags::TERMINATE_ON_FIRST_HIT != 0;
+        self.ended = answer == AnyHit::Terminate || self.first_hit_ends;
         self.closest = Some(found);
         self.at.set(path);
         true
     }
 
+    /// The limit of depth after some of the scene was looked at, when it was `limit` and the interval ended at `before`.
+    /// Negative infinity if the ray has ended.
     #[inline(always)]
-    pub fn into_hit(self) -> Option<Hit<'a>> {
-        let found = self.closest?;
+    pub fn limit(&self, before: f32, limit: f32, frame: &Frame) -> f32 {
+        match self.ended {
+            true => f32::NEG_INFINITY,
+            false if self.tmax < before => frame.depth_max(self.tmax),
+            false => limit,
+        }
+    }
+
+    #[inline(always)]
+    pub fn hit(&self, query: &RayQuery) -> Option<Hit<'a>> {
+        let found = self.closest.as_ref()?;
         Some(Hit {
             t: found.t,
             hit_kind: found.hit_kind,
             attributes: found.attributes,
             primitive_index: found.gas.primitive_index(found.primitive),
             sbt_gas_index: found.record,
-            sbt_index: sbt_index(&self.query, found.instance_offset, found.record),
+            sbt_index: sbt_index(query, found.instance_offset, found.record),
+            slot: found.slot,
             gas: found.gas,
             path: self.at,
         })

@@ -1,6 +1,6 @@
 //! Traversal.
 
-use super::bvh::{Bvh, Child, Lanes, STACK};
+use super::bvh::{Bvh, Child, Lanes, WIDTH};
 use super::flags::{InstanceFlags, Verdict, any_hit_verdict, face_culled};
 use super::gas::{Content, Gas, block_of};
 use super::ias::{Accel, Ias};
@@ -10,6 +10,7 @@ use super::ray::{BoxRay, Frame, Ray, RayQuery};
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
 use super::simd::{Portable, Simd, Task};
+use super::stack::{Entry, Stack};
 use super::state::{Found, State, sbt_index};
 use super::triangle::{self, Block, TriangleHit};
 
@@ -48,232 +49,275 @@ pub fn trace_with<'a, S: Simd, P: Programs>(
     programs: &mut P,
 ) -> Option<Hit<'a>> {
     let accel = accel?;
-    let query = RayQuery { tmin: ray.tmin.max(0.0), ..*ray };
-    if ray.tmin.is_nan() || ray.tmax.is_nan() || query.tmin > query.tmax {
+    if ray.tmin.is_nan() || ray.tmax.is_nan() || ray.tmin.max(0.0) > ray.tmax {
         return None;
     }
-    let mut path = InstancePath::new(accel);
-    let mut state = State::new(query, path);
-    let here = Place {
-        ray: Ray { origin: ray.origin, direction: ray.direction },
-        exact: [ray.origin, ray.direction].map(|v| v.map(f64::from)),
-        flags: InstanceFlags::NONE,
-        sbt_offset: 0,
-    };
-    simd.run(Level { accel, here, state: &mut state, path: &mut path, programs });
-    state.into_hit()
+    simd.run(AtRoot { accel, query: ray, programs })
 }
 
-/// A space and what the instances above it say.
-struct Place {
+/// A trace, from preparing the ray to the hit.
+struct AtRoot<'t, 'a, P> {
+    accel: &'a Accel,
+    query: &'t RayQuery,
+    programs: &'t mut P,
+}
+
+impl<'a, P: Programs> Task for AtRoot<'_, 'a, P> {
+    type Output = Option<Hit<'a>>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Option<Hit<'a>> {
+        let Self { accel, query, programs } = self;
+        let tmin = query.tmin.max(0.0);
+        let ray = Ray { origin: query.origin, direction: query.direction };
+        let exact = [widen(query.origin), widen(query.direction)];
+        let frame = Frame::new(&query.origin, &query.direction, tmin)?;
+        let space = Space { ray, exact, frame };
+        let (state, path) = (&mut State::new(query, tmin, accel), &mut InstancePath::new(accel));
+        let place = Place { query, tmin, space: &space, flags: InstanceFlags::NONE, sbt_offset: 0 };
+        match accel {
+            Accel::Gas(gas) => simd.run(AtGas { gas, place, state, path, programs }),
+            Accel::Ias(ias) => AtIas { ias, place, state, path, programs }.run(simd),
+        }
+        state.hit(query)
+    }
+}
+
+/// The ray in some space.
+struct Space {
     ray: Ray,
     /// Origin and direction before rounding.
     exact: [[f64; 3]; 2],
+    frame: Frame,
+}
+
+impl Space {
+    /// `None` if the ray misses everything.
+    #[inline(always)]
+    fn new(exact: [[f64; 3]; 2], tmin: f32) -> Option<Self> {
+        let ray = Ray { origin: narrow(exact[0]), direction: narrow(exact[1]) };
+        Some(Self { ray, exact, frame: Frame::new(&ray.origin, &ray.direction, tmin)? })
+    }
+}
+
+// `array::map` is not inlined into functions that are compiled for another instruction set than it is.
+#[inline(always)]
+fn widen([x, y, z]: [f32; 3]) -> [f64; 3] {
+    [x.into(), y.into(), z.into()]
+}
+
+#[inline(always)]
+fn narrow([x, y, z]: [f64; 3]) -> [f32; 3] {
+    [x as f32, y as f32, z as f32]
+}
+
+/// A space and what the instances above it say.
+#[derive(Clone, Copy)]
+struct Place<'s> {
+    query: &'s RayQuery,
+    /// The query's, but not negative.
+    tmin: f32,
+    space: &'s Space,
     /// Those of the innermost instance (guide §5.4).
     flags: InstanceFlags,
     /// The sum over all instances.
     sbt_offset: u32,
 }
 
-/// Traversal of one structure of the graph.
-struct Level<'t, 'a, P> {
-    accel: &'a Accel,
-    here: Place,
+/// Traversal of a geometry acceleration structure.
+struct AtGas<'t, 'a, P> {
+    gas: &'a Gas,
+    place: Place<'t>,
+    state: &'t mut State<'a>,
+    path: &'t InstancePath<'a>,
+    programs: &'t mut P,
+}
+
+impl<P: Programs> Task for AtGas<'_, '_, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(mut self, simd: S) {
+        let (gas, frame) = (self.gas, &self.place.space.frame);
+        let limit = frame.depth_max(self.state.tmax);
+        match &gas.content {
+            Content::Triangles { blocks, .. } if gas.bvh.nodes.is_empty() => {
+                if frame.reach(&gas.bvh.bounds).is_some() {
+                    self.few(simd, blocks, limit);
+                }
+            }
+            Content::Triangles { blocks, .. } => {
+                let Some(boxes) = frame.boxes(&gas.bvh.bounds, 1.0) else { return };
+                walk(simd, &gas.bvh, &boxes, limit, |payload, limit| {
+                    let (index, used) = block_of(payload);
+                    self.block(simd, &blocks[index], index, used, limit)
+                });
+            }
+            Content::Custom { .. } => {
+                let Some(boxes) = frame.boxes(&gas.bvh.bounds, 1.0) else { return };
+                walk(simd, &gas.bvh, &boxes, limit, |primitive, limit| self.custom(primitive, limit));
+            }
+        }
+    }
+}
+
+impl<P: Programs> AtGas<'_, '_, P> {
+    /// Tests all triangles of a structure without nodes.
+    #[inline(always)]
+    fn few<S: Simd>(&mut self, simd: S, blocks: &[Block], mut limit: f32) {
+        let mut left = self.gas.primitive_count();
+        for (index, block) in blocks.iter().enumerate() {
+            let used = (1 << left.min(WIDTH)) - 1;
+            left -= left.min(WIDTH);
+            limit = self.block(simd, block, index, used, limit);
+            if limit == f32::NEG_INFINITY {
+                return;
+            }
+        }
+    }
+
+    /// Tests the triangles of a block that `used` has a bit for. Gives the new limit of depth, as [`walk`] wants it.
+    #[inline(always)]
+    fn block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
+        let frame = &self.place.space.frame;
+        let (met, sheared) = simd.triangles(block, &frame.shear, [frame.depth_min, limit]);
+        let mut lanes = met & used;
+        let before = self.state.tmax;
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize & (WIDTH - 1);
+            lanes &= lanes - 1;
+            let Some(hit) = triangle::hit(&frame.shear, triangle::lane_of(&sheared, lane)) else { continue };
+            let primitive = block.primitives[lane];
+            if self.state.admits(hit.t, self.path, primitive) {
+                self.offer(hit, primitive, (index * WIDTH + lane) as u32);
+                if self.state.ended {
+                    return f32::NEG_INFINITY;
+                }
+            }
+        }
+        if self.state.tmax < before { frame.depth_max(self.state.tmax) } else { limit }
+    }
+
+    /// Culls a triangle hit that the interval admits, or asks any-hit about it, or accepts it.
+    #[inline]
+    fn offer(&mut self, hit: TriangleHit, primitive: u32, slot: u32) {
+        let (gas, here) = (self.gas, self.place);
+        let query = here.query;
+        let record = gas.record_of(primitive);
+        let geometry = gas.flags_of(record);
+        let verdict = any_hit_verdict(geometry, here.flags, query.flags);
+        let front = hit.front != here.flags.contains(InstanceFlags::FLIP_TRIANGLE_FACING);
+        if verdict == Verdict::Cull || face_culled(geometry, here.flags, query.flags, front) {
+            return;
+        }
+        let found = Found {
+            t: hit.t,
+            hit_kind: if front { FRONT_FACE } else { BACK_FACE },
+            attributes: [hit.u.to_bits(), hit.v.to_bits(), 0, 0, 0, 0, 0, 0],
+            primitive,
+            record,
+            instance_offset: here.sbt_offset,
+            slot,
+            gas,
+        };
+        let answer = if verdict == Verdict::AnyHit {
+            self.programs.any_hit(&Candidate {
+                site: site(primitive, record, gas, here, self.path),
+                t: found.t,
+                hit_kind: found.hit_kind,
+                attributes: found.attributes,
+                slot,
+            })
+        } else {
+            AnyHit::Accept
+        };
+        self.state.settle(answer, found, self.path);
+    }
+
+    /// Has the intersection program look at a primitive. Gives the new limit of depth.
+    #[inline(always)]
+    fn custom(&mut self, primitive: u32, limit: f32) -> f32 {
+        let (gas, here) = (self.gas, self.place);
+        let record = gas.record_of(primitive);
+        let verdict = any_hit_verdict(gas.flags_of(record), here.flags, here.query.flags);
+        if verdict == Verdict::Cull {
+            return limit;
+        }
+        let before = self.state.tmax;
+        let site = site(primitive, record, gas, here, self.path);
+        let mut reporter = Reporter {
+            state: &mut *self.state,
+            site: &site,
+            path: self.path,
+            gas,
+            primitive,
+            instance_offset: here.sbt_offset,
+            verdict,
+        };
+        self.programs.intersect(&site, &mut reporter);
+        self.state.limit(before, limit, &here.space.frame)
+    }
+}
+
+/// Traversal of an instance acceleration structure.
+struct AtIas<'t, 'a, P> {
+    ias: &'a Ias,
+    place: Place<'t>,
     state: &'t mut State<'a>,
     path: &'t mut InstancePath<'a>,
     programs: &'t mut P,
 }
 
-impl<P: Programs> Task for Level<'_, '_, P> {
+impl<P: Programs> Task for AtIas<'_, '_, P> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let (bvh, slack) = match self.accel {
-            Accel::Gas(gas) => (&gas.bvh, 1.0),
-            Accel::Ias(ias) => (&ias.bvh, ias.slack),
-        };
-        let Some(frame) = Frame::new(&self.here.ray, self.state.query.tmin, &bvh.bounds, slack) else { return };
-        match self.accel {
-            Accel::Gas(gas) => match &gas.content {
-                Content::Triangles { blocks, .. } => self.triangles(simd, gas, blocks, &frame),
-                Content::Custom { .. } => self.custom(simd, gas, &frame),
-            },
-            Accel::Ias(ias) => self.instances(simd, ias, &frame),
-        }
-    }
-}
-
-impl<'a, P: Programs> Level<'_, 'a, P> {
-    #[inline(always)]
-    fn triangles<S: Simd>(self, simd: S, gas: &'a Gas, blocks: &[Block], frame: &Frame) {
-        let Self { here, state, path, programs, .. } = self;
+        let Self { ias, place: here, state, path, programs } = self;
+        let frame = &here.space.frame;
+        let Some(boxes) = frame.boxes(&ias.bvh.bounds, ias.slack) else { return };
         let limit = frame.depth_max(state.tmax);
-        walk(simd, &gas.bvh, &frame.boxes, limit, |payload, limit| {
-            let (block, used) = block_of(payload);
-            let block = &blocks[block];
-            let mut lanes = simd.triangles(block, &frame.shear) & used;
+        walk(simd, &ias.bvh, &boxes, limit, |index, limit| {
+            let placed = &ias.placed[index as usize];
+            let instance = &placed.instance;
+            if instance.visibility_mask & here.query.mask == 0 {
+                return limit;
+            }
+            let own;
+            let space = if placed.identity {
+                here.space
+            } else {
+                let [origin, direction] = here.space.exact;
+                let exact = [placed.inverse.point(origin), placed.inverse.vector(direction)];
+                let Some(space) = Space::new(exact, here.tmin) else { return limit };
+                own = space;
+                &own
+            };
+            let place =
+                Place { space, flags: instance.flags, sbt_offset: here.sbt_offset + instance.sbt_offset, ..here };
             let before = state.tmax;
-            while lanes != 0 {
-                let lane = lanes.trailing_zeros() as usize;
-                lanes &= lanes - 1;
-                let Some(hit) = triangle::hit(&frame.shear, block.triangle(lane)) else { continue };
-                let primitive = block.primitives[lane & 7];
-                if state.admits(hit.t, path, primitive) {
-                    offer(hit, primitive, gas, &here, state, path, programs);
-                    if state.ended {
-                        return f32::NEG_INFINITY;
-                    }
+            path.push(index);
+            match &*instance.child {
+                Accel::Gas(gas) => simd.run(AtGas { gas, place, state: &mut *state, path, programs: &mut *programs }),
+                Accel::Ias(ias) => {
+                    simd.run(AtIas { ias, place, state: &mut *state, path: &mut *path, programs: &mut *programs });
                 }
             }
-            if state.tmax < before { frame.depth_max(state.tmax) } else { limit }
-        });
-    }
-
-    #[inline(always)]
-    fn custom<S: Simd>(self, simd: S, gas: &'a Gas, frame: &Frame) {
-        let Self { here, state, path, programs, .. } = self;
-        let limit = frame.depth_max(state.tmax);
-        let query = state.query;
-        walk(simd, &gas.bvh, &frame.boxes, limit, |primitive, limit| {
-            let record = gas.record_of(primitive);
-            let verdict = any_hit_verdict(gas.flags_of(record), here.flags, query.flags);
-            if verdict == Verdict::Cull {
-                return limit;
-            }
-            let before = state.tmax;
-            let site = site(primitive, record, gas, &here, &query, path);
-            let mut reporter = Reporter {
-                state: &mut *state,
-                site: &site,
-                path,
-                gas,
-                primitive,
-                instance_offset: here.sbt_offset,
-                verdict,
-            };
-            programs.intersect(&site, &mut reporter);
-            match state.ended {
-                true => f32::NEG_INFINITY,
-                false if state.tmax < before => frame.depth_max(state.tmax),
-                false => limit,
-            }
-        });
-    }
-
-    #[inline(always)]
-    fn instances<S: Simd>(self, simd: S, ias: &'a Ias, frame: &Frame) {
-        let Self { here, state, path, programs, .. } = self;
-        let limit = frame.depth_max(state.tmax);
-        walk(simd, &ias.bvh, &frame.boxes, limit, |index, limit| {
-            let placed = &ias.placed[index as usize];
-            if placed.instance.visibility_mask & state.query.mask == 0 {
-                return limit;
-            }
-            let before = state.tmax;
-            let exact = [placed.inverse.point(here.exact[0]), placed.inverse.vector(here.exact[1])];
-            let [origin, direction] = exact.map(|v| v.map(|x| x as f32));
-            path.push(index);
-            simd.run(Level {
-                accel: &placed.instance.child,
-                here: Place {
-                    ray: Ray { origin, direction },
-                    exact,
-                    flags: placed.instance.flags,
-                    sbt_offset: here.sbt_offset + placed.instance.sbt_offset,
-                },
-                state: &mut *state,
-                path: &mut *path,
-                programs: &mut *programs,
-            });
             path.pop();
-            match state.ended {
-                true => f32::NEG_INFINITY,
-                false if state.tmax < before => frame.depth_max(state.tmax),
-                false => limit,
-            }
+            state.limit(before, limit, frame)
         });
     }
 }
 
-/// Culls a triangle hit that the interval admits, or asks any-hit about it, or accepts it.
-#[inline]
-fn offer<'a, P: Programs>(
-    hit: TriangleHit,
-    primitive: u32,
-    gas: &'a Gas,
-    here: &Place,
-    state: &mut State<'a>,
-    path: &InstancePath<'a>,
-    programs: &mut P,
-) {
-    let record = gas.record_of(primitive);
-    let geometry = gas.flags_of(record);
-    let verdict = any_hit_verdict(geometry, here.flags, state.query.flags);
-    let front = hit.front != here.flags.contains(InstanceFlags::FLIP_TRIANGLE_FACING);
-    if verdict == Verdict::Cull || face_culled(geometry, here.flags, state.query.flags, front) {
-        return;
-    }
-    let found = Found {
-        t: hit.t,
-        hit_kind: if front { FRONT_FACE } else { BACK_FACE },
-        attributes: [hit.u.to_bits(), hit.v.to_bits(), 0, 0, 0, 0, 0, 0],
-        primitive,
-        record,
-        instance_offset: here.sbt_offset,
-        gas,
-    };
-    let answer = if verdict == Verdict::AnyHit {
-        programs.any_hit(&Candidate {
-            site: site(primitive, record, gas, here, &state.query, path),
-            t: found.t,
-            hit_kind: found.hit_kind,
-            attributes: found.attributes,
-        })
-    } else {
-        AnyHit::Accept
-    };
-    state.settle(answer, found, path);
-}
-
-fn site<'s>(
-    primitive: u32,
-    record: u32,
-    gas: &'s Gas,
-    here: &Place,
-    query: &'s RayQuery,
-    path: &'s InstancePath<'s>,
-) -> Site<'s> {
+fn site<'s>(primitive: u32, record: u32, gas: &'s Gas, here: Place<'s>, path: &'s InstancePath<'s>) -> Site<'s> {
     Site {
         primitive_index: gas.primitive_index(primitive),
         sbt_gas_index: record,
-        sbt_index: sbt_index(query, here.sbt_offset, record),
+        sbt_index: sbt_index(here.query, here.sbt_offset, record),
         gas,
         path,
-        query,
-        object_ray: here.ray,
-    }
-}
-
-/// A child and where the ray enters it, in one number that sorts by depth; depths are not negative, so their bits sort
-/// as they do.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry(u64);
-
-impl Entry {
-    #[inline(always)]
-    fn new(depth: f32, child: Child) -> Self {
-        Self(u64::from(depth.to_bits()) << 32 | u64::from(child.0))
-    }
-
-    #[inline(always)]
-    fn depth(self) -> f32 {
-        f32::from_bits((self.0 >> 32) as u32)
-    }
-
-    #[inline(always)]
-    fn child(self) -> Child {
-        Child(self.0 as u32)
+        query: here.query,
+        object_ray: here.space.ray,
     }
 }
 
@@ -281,8 +325,7 @@ impl Entry {
 /// payload and the limit, and gives the new limit; negative infinity ends the walk.
 #[inline(always)]
 fn walk<S: Simd>(simd: S, bvh: &Bvh, ray: &BoxRay, mut limit: f32, mut visit: impl FnMut(u32, f32) -> f32) {
-    let mut stack = [Entry(0); STACK];
-    let mut top = 0;
+    let mut stack = Stack::new();
     let mut at = Child::node(0);
     let mut near = Lanes::splat(0.0);
     loop {
@@ -299,36 +342,50 @@ fn walk<S: Simd>(simd: S, bvh: &Bvh, ray: &BoxRay, mut limit: f32, mut visit: im
                     let lane = met.trailing_zeros() as usize & 7;
                     Entry::new(near.0[lane], node.child[lane])
                 };
-                // The nearest child is next; the others wait on the stack, the farthest lowest.
+                // The nearest child is next; the others wait on the stack. Up to four are sorted without branches.
                 let mut nearest = entry(met);
                 met &= met - 1;
-                let base = top;
-                while met != 0 {
-                    let other = entry(met);
-                    met &= met - 1;
-                    let farther = nearest.max(other);
-                    nearest = nearest.min(other);
-                    let mut place = top;
-                    while place > base && stack[place - 1] < farther {
-                        stack[place] = stack[place - 1];
-                        place -= 1;
+                if met.count_ones() <= 3 {
+                    if met != 0 {
+                        let sort = |a: &mut Entry, b: &mut Entry| (*a, *b) = ((*a).min(*b), (*a).max(*b));
+                        let mut second = entry(met);
+                        met &= met - 1;
+                        sort(&mut nearest, &mut second);
+                        if met != 0 {
+                            let mut third = entry(met);
+                            met &= met - 1;
+                            sort(&mut nearest, &mut third);
+                            sort(&mut second, &mut third);
+                            if met != 0 {
+                                let mut fourth = entry(met);
+                                sort(&mut nearest, &mut fourth);
+                                sort(&mut second, &mut fourth);
+                                sort(&mut third, &mut fourth);
+                                stack.push(fourth);
+                            }
+                            stack.push(third);
+                        }
+                        stack.push(second);
                     }
-                    stack[place] = farther;
-                    top += 1;
+                } else {
+                    let base = stack.len();
+                    while met != 0 {
+                        let other = entry(met);
+                        met &= met - 1;
+                        stack.insert(nearest.max(other), base);
+                        nearest = nearest.min(other);
+                    }
                 }
                 at = nearest.child();
                 continue;
             }
         }
-        loop {
-            if top == 0 {
-                return;
+        at = loop {
+            match stack.pop() {
+                None => return,
+                Some(next) if next.depth() <= limit => break next.child(),
+                Some(_) => {}
             }
-            top -= 1;
-            if stack[top].depth() <= limit {
-                at = stack[top].child();
-                break;
-            }
-        }
+        };
     }
 }

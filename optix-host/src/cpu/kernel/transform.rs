@@ -19,14 +19,18 @@ impl Affine {
         self.0.map(|x| x as f32)
     }
 
+    #[inline(always)]
     pub fn point(&self, p: [f64; 3]) -> [f64; 3] {
         let m = &self.0;
-        std::array::from_fn(|r| m[4 * r] * p[0] + m[4 * r + 1] * p[1] + m[4 * r + 2] * p[2] + m[4 * r + 3])
+        let row = |r: usize| m[4 * r] * p[0] + m[4 * r + 1] * p[1] + m[4 * r + 2] * p[2] + m[4 * r + 3];
+        [row(0), row(1), row(2)]
     }
 
+    #[inline(always)]
     pub fn vector(&self, v: [f64; 3]) -> [f64; 3] {
         let m = &self.0;
-        std::array::from_fn(|r| m[4 * r] * v[0] + m[4 * r + 1] * v[1] + m[4 * r + 2] * v[2])
+        let row = |r: usize| m[4 * r] * v[0] + m[4 * r + 1] * v[1] + m[4 * r + 2] * v[2];
+        [row(0), row(1), row(2)]
     }
 
     /// The map that applies `inner` first and `self` after it.

@@ -13,8 +13,8 @@
 //!   `|U| > 2^-23 (|P| + |Q|) + 2^-125` (twice what is needed). Otherwise, for infinities and NaN too, the sign
 //!   counts as unknown.
 //!
-//! A lane is dropped if one of its edges is surely positive and another surely negative; the remaining ones, which are
-//! few, are decided in `f64` by [`hit`]. An origin on an edge belongs to the triangles on both sides. A triangle whose
+//! A lane is dropped if one of its edges is surely positive and another surely negative, and if its corners all lie on
+//! one side of the depths that count; the remaining ones, which are few, are decided in `f64` by [`hit`]. An origin on an edge belongs to the triangles on both sides. A triangle whose
 //! projection has no area (`U = V = W = 0`) is not hit, and no hole comes of it: in a closed surface the ray then meets
 //! a neighbour with area, because all rays close to it do.
 //!
@@ -23,7 +23,7 @@
 //! From the signs on everything is in `f64`, so `t`, `u` and `v` are those of the triangle with sheared corners
 //! `(x_i, y_i, z_i)`, rounded once to `f32` (relative error `2^-24 (1 + 2^-25)`). The sheared corners differ from the
 //! exact ones by at most `6 e r` in `x` and `y` and `e r` in `z`, where `r` is the largest distance on any axis of
-//! a corner from the ray's origin (derivation in [`Frame::new`](super::ray::Frame::new); one `e r` more for the
+//! a corner from the ray's origin (derivation in [`Frame::boxes`](super::ray::Frame::boxes); one `e r` more for the
 //! rounding of the slope). For a triangle that is the plane `z = z_0 + g_x x + g_y y` in exact sheared coordinates, the
 //! depth is thus off by about `e r (1 + 6 |g_x| + 6 |g_y|)`, and never leaves the depths of its corners.
 
@@ -73,11 +73,13 @@ pub struct TriangleHit {
 pub const EDGE_RELATIVE: f32 = 1.0 / (1 << 23) as f32;
 pub const EDGE_ABSOLUTE: f32 = f32::MIN_POSITIVE * 2.0;
 
-/// A corner in the ray's sheared space. The vector test does the same operations in the same order.
+/// The triangles of a block in the ray's sheared space, `[corner][axis][lane]`.
+pub type Sheared = [[Lanes; 3]; 3];
+
+/// A triangle of a sheared block.
 #[inline(always)]
-fn shear(ray: &ShearRay, corner: [f32; 3]) -> [f32; 3] {
-    let [x, y, z] = ray.axes.map(|a| corner[a as usize] - ray.origin[a as usize]);
-    [x - ray.slope[0] * z, y - ray.slope[1] * z, z]
+pub fn lane_of(sheared: &Sheared, lane: usize) -> [[f32; 3]; 3] {
+    sheared.map(|corner| corner.map(|axis| axis.0[lane & (WIDTH - 1)]))
 }
 
 /// The edge function of two sheared corners: exact sign, relative error `2^-53`.
@@ -86,13 +88,13 @@ pub fn edge(from: [f32; 3], to: [f32; 3]) -> f64 {
     f64::from(from[0]) * f64::from(to[1]) - f64::from(from[1]) * f64::from(to[0])
 }
 
-/// The exact test of one triangle. `None` for a miss, for a hit behind the origin, for a triangle without area as seen
-/// along the ray, and where coordinate differences overflow. Never gives NaN.
-#[inline]
-pub fn hit(ray: &ShearRay, triangle: [[f32; 3]; 3]) -> Option<TriangleHit> {
-    let [a, b, c] = triangle.map(|corner| shear(ray, corner));
+/// The exact test of one triangle, given by its sheared corners. `None` for a miss, for a hit behind the origin, for a
+/// triangle without area as seen along the ray, and where coordinate differences overflow. Never gives NaN.
+#[inline(always)]
+pub fn hit(ray: &ShearRay, [a, b, c]: [[f32; 3]; 3]) -> Option<TriangleHit> {
     let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
-    if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+    // Without short circuits, which are branches that nothing predicts.
+    if ((u < 0.0) | (v < 0.0) | (w < 0.0)) & ((u > 0.0) | (v > 0.0) | (w > 0.0)) {
         return None;
     }
     // No cancellation: all three have the same sign.

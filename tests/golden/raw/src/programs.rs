@@ -122,6 +122,7 @@ pub unsafe extern "ptx-kernel" fn __closesthit__shade() {
     set_payload(3, seed);
 }
 
+#[repr(u8)]
 enum Decision {
     Accept,
     Ignore,

@@ -38,7 +38,11 @@ mod caller_gives_nothing {
 
     #[raygen]
     pub fn camera<P: HasRay<Radiance>>(rg: &RayGen<P>) {
-        let _ = rg.trace::<Radiance>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), RadianceFromCaller { rng: Pcg32::new(1, 2) });
+        let _ = rg.trace::<Radiance>(
+            Traversable::NULL,
+            Ray::new(Vec3::ZERO, Vec3::X),
+            RadianceFromCaller { rng: Pcg32::new(1, 2) },
+        );
     }
 }
 
@@ -55,7 +59,11 @@ mod caller_gives_too_little {
 
     #[raygen]
     pub fn camera<P: HasRay<Radiance>>(rg: &RayGen<P>) {
-        let _ = rg.trace::<Radiance>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), RadianceFromCaller { rng: Pcg32::new(1, 2) });
+        let _ = rg.trace::<Radiance>(
+            Traversable::NULL,
+            Ray::new(Vec3::ZERO, Vec3::X),
+            RadianceFromCaller { rng: Pcg32::new(1, 2) },
+        );
     }
 }
 
@@ -78,7 +86,8 @@ mod caller_names_no_ray {
 
     #[raygen]
     pub fn camera<P: HasRay<Radiance> + HasRay<Shadow>>(rg: &RayGen<P>) {
-        let _ = rg.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+        let _ =
+            rg.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
     }
 }
 

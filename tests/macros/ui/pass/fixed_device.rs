@@ -248,7 +248,8 @@ mod device_trace_from_anyhit {
 
     #[miss]
     pub fn program<P: HasRay<Shadow>>(at: &Miss<P>) {
-        let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+        let _ =
+            at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
     }
 }
 
@@ -263,7 +264,8 @@ mod device_trace_from_intersection {
 
     #[closesthit]
     pub fn program<P: HasRay<Shadow>>(at: &ClosestHit<P, Triangles>) {
-        let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+        let _ =
+            at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
     }
 }
 
@@ -277,7 +279,8 @@ mod device_trace_in_a_helper {
     }
 
     fn occluded<P: HasRay<Shadow>, A>(hit: &ClosestHit<P, A>) -> bool {
-        !hit.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false }).visible
+        !hit.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false })
+            .visible
     }
 
     #[closesthit]

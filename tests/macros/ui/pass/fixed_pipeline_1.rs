@@ -174,6 +174,14 @@ mod pipeline_key_twice {
     }
 }
 
+mod pipeline_keyword {
+    use crate::common::*;
+
+    pipeline! {
+        pub struct PathTracer { params: Frame, raygen: [camera], rays: { Radiance { miss: sky } } }
+    }
+}
+
 mod pipeline_made_by_a_macro {
     use crate::common::*;
 
@@ -421,26 +429,6 @@ mod pipeline_program_of_another_kind {
 
 mod pipeline_program_of_another_payload {
     use crate::common::*;
-
-    pipeline! {
-        pub struct PathTracer {
-            params: Frame,
-            raygen: [camera],
-            rays: { Radiance { miss: sky }, Shadow { miss: lit } },
-            hitgroups: { Lambert on Triangles => { Radiance { closesthit: lambert }, Shadow {} } },
-        }
-    }
-}
-
-mod pipeline_program_of_another_pipeline {
-    use crate::common::*;
-
-    #[raygen]
-    pub fn fixed(_: &RayGen<Other>) {}
-
-    pipeline! {
-        pub struct Other { params: Frame, raygen: [fixed] }
-    }
 
     pipeline! {
         pub struct PathTracer {

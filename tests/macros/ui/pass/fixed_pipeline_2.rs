@@ -4,6 +4,26 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod pipeline_program_of_another_pipeline {
+    use crate::common::*;
+
+    #[raygen]
+    pub fn fixed(_: &RayGen<Other>) {}
+
+    pipeline! {
+        pub struct Other { params: Frame, raygen: [fixed] }
+    }
+
+    pipeline! {
+        pub struct PathTracer {
+            params: Frame,
+            raygen: [camera],
+            rays: { Radiance { miss: sky }, Shadow { miss: lit } },
+            hitgroups: { Lambert on Triangles => { Radiance { closesthit: lambert }, Shadow {} } },
+        }
+    }
+}
+
 mod pipeline_program_of_another_record {
     use crate::common::*;
 

@@ -37,7 +37,11 @@ mod program_traces_a_foreign_ray {
 
     #[raygen]
     pub fn camera<P: HasRay<Radiance>>(rg: &RayGen<P>) {
-        rg.trace::<Radiance>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), RadianceFromCaller { rng: Pcg32::new(1, 2) });
+        rg.trace::<Radiance>(
+            Traversable::NULL,
+            Ray::new(Vec3::ZERO, Vec3::X),
+            RadianceFromCaller { rng: Pcg32::new(1, 2) },
+        );
     }
 }
 

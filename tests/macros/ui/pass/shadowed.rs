@@ -31,7 +31,10 @@ pub struct r#Ray2
 where
     Word: Copy,
 {
-    #[payload(write(caller, closesthit, miss, anyhit, intersection), read(caller, closesthit, miss, anyhit, intersection))]
+    #[payload(
+        write(caller, closesthit, miss, anyhit, intersection),
+        read(caller, closesthit, miss, anyhit, intersection)
+    )]
     pub r#fn: Word,
     #[payload(write(caller), read(closesthit))]
     pub clone: [Word; 2],
@@ -42,7 +45,7 @@ pub struct Ping;
 
 #[derive(Clone, Copy, SbtRecord)]
 #[repr(C)]
-pub struct r#Paint<> {
+pub struct r#Paint {
     pub r#struct: Slice<Word>,
     pub r#in: Word,
 }

@@ -3,9 +3,10 @@
 use std::cmp::Ordering;
 
 use super::super::bvh::{Bvh, Lanes};
-use super::super::ray::{Axis, Frame};
+use super::super::gas::SINGLE_LEAF;
+use super::super::ray::{Axis, BoxRay, Frame, ShearRay};
 use super::super::simd::Task;
-use super::super::triangle::{Block, TriangleHit, edge, hit};
+use super::super::triangle::{self, Block, TriangleHit, edge};
 use super::*;
 
 /// A random float of either sign over the given binary exponents; now and then 0 or a neighbour of a power of two.
@@ -90,7 +91,17 @@ fn case(random: &mut Random, spread: (i32, i32)) -> ([[f32; 3]; 3], Ray) {
 }
 
 fn frame(ray: &Ray, corners: &[[f32; 3]]) -> Option<Frame> {
-    Frame::new(ray, 0.0, &Aabb::around(corners), 1.0)
+    let frame = Frame::new(&ray.origin, &ray.direction, 0.0)?;
+    frame.reach(&Aabb::around(corners)).map(|_| frame)
+}
+
+/// The exact test of a triangle in object space, sheared by the operations of the vector kernels.
+fn hit(ray: &ShearRay, corners: [[f32; 3]; 3]) -> Option<TriangleHit> {
+    let sheared = corners.map(|corner| {
+        let [x, y, z] = [0, 1, 2].map(|i| corner[ray.axes[i] as usize] - ray.origin[i]);
+        [x - ray.slope[0] * z, y - ray.slope[1] * z, z]
+    });
+    triangle::hit(ray, sheared)
 }
 
 /// The triangle's exact sheared corners (to `2^-50`), distances of the origin from its edges, and the depth there.
@@ -271,17 +282,21 @@ fn vector_kernels_are_bit_identical() {
         block: &'t Block,
         bvh: &'t Bvh,
         frame: &'t Frame,
+        ray: &'t BoxRay,
         limit: f32,
     }
     impl Task for Both<'_> {
-        type Output = (u32, Vec<(u32, Vec<u32>)>);
+        type Output = (u32, Vec<u32>, Vec<(u32, Vec<u32>)>);
         fn run<S: Simd>(self, simd: S) -> Self::Output {
             let boxes = self.bvh.nodes.iter().map(|node| {
                 let mut near = Lanes([0.0; 8]);
-                let met = simd.boxes(node, &self.frame.boxes, self.limit, &mut near);
+                let met = simd.boxes(node, self.ray, self.limit, &mut near);
                 (met, (0..8).filter(|i| met >> i & 1 != 0).map(|i| near.0[i].to_bits()).collect())
             });
-            (simd.triangles(self.block, &self.frame.shear), boxes.collect())
+            let depths = [self.frame.depth_min, self.limit];
+            let (met, sheared) = simd.triangles(self.block, &self.frame.shear, depths);
+            let corners = sheared.iter().flatten().flat_map(|axis| axis.0.map(f32::to_bits)).collect();
+            (met, corners, boxes.collect())
         }
     }
     let Some(avx2) = Avx2::detect() else { return println!("no AVX2 here") };
@@ -291,25 +306,23 @@ fn vector_kernels_are_bit_identical() {
         let cases = [(); 8].map(|()| case(&mut random, spread));
         let triangles = cases.map(|c| c.0);
         let boxes = triangles.map(|t| Aabb::around(&t));
-        let gas = Gas::triangles(vec![triangles_input(&triangles)]).unwrap();
-        let Some(frame) = Frame::new(&cases[0].1, 0.0, &boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(b)), 1.0) else {
-            continue;
-        };
+        let ray = cases[0].1;
+        // The rays of `case` end at `t = 1` on their triangles' planes, so these intervals cut.
+        let (tmin, tmax) = ([0.0, 1.0][i / 4 % 2], [f32::INFINITY, 1.0][i % 2]);
+        let Some(frame) = Frame::new(&ray.origin, &ray.direction, tmin) else { continue };
+        let bvh = Bvh::build(&boxes, SINGLE_LEAF, |primitives| primitives[0]);
+        let Some(ray) = frame.boxes(&bvh.bounds, 1.0) else { continue };
         let block = Block::new(&[0, 1, 2, 3, 4, 5, 6, 7], &triangles);
-        let limit = if i % 2 == 0 { f32::INFINITY } else { frame.depth_max(1.0) };
-        let task = || Both { block: &block, bvh: &gas.bvh, frame: &frame, limit };
+        let limit = frame.depth_max(tmax);
+        let task = || Both { block: &block, bvh: &bvh, frame: &frame, ray: &ray, limit };
         let (a, b) = (avx2.run(task()), Portable.run(task()));
         assert_eq!(a, b);
         for (lane, &triangle) in triangles.iter().enumerate() {
-            if hit(&frame.shear, triangle).is_some() {
+            if hit(&frame.shear, triangle).is_some_and(|hit| hit.t >= tmin && hit.t <= tmax) {
                 assert!(a.0 >> lane & 1 != 0, "the vector test dropped a hit");
             }
         }
     }
-}
-
-fn triangles_input(corners: &[[[f32; 3]; 3]]) -> TriangleInput {
-    triangles(corners.iter().flatten().copied().collect(), None, OFF)
 }
 
 #[test]

@@ -1,0 +1,168 @@
+//! Program calls and trace calls.
+
+use super::checks::{self, Watch};
+use super::traversal::{AtHit, Traversal};
+use super::{Job, trap};
+use crate::cpu::kernel::{self, Accel, RayQuery};
+use crate::sbt::Section;
+use core::cell::Cell;
+use core::ptr::NonNull;
+use glam::{UVec3, Vec3};
+use optix_device_rs::host::{Entry, Executor, Frame, HitState, PayloadWatch, TraceCall};
+use optix_device_rs::prelude::{Decision, Ray};
+use optix_device_rs::words::WordBuffer;
+
+/// What all program calls of one trace share.
+#[derive(Clone, Copy)]
+pub(super) struct Call<'c> {
+    pub job: &'c Job<'c>,
+    index: UVec3,
+    /// Trace calls around this one.
+    depth: u32,
+    /// The program that runs, for messages.
+    running: &'c Cell<&'static str>,
+    payload: &'c Cell<WordBuffer>,
+    /// In checked mode, what is known of the payload.
+    watch: Option<&'c Watch>,
+}
+
+/// What a program sees of its ray and hit.
+pub(super) struct Seen {
+    /// With the `tmax` that the program sees.
+    pub ray: Ray,
+    /// Origin and direction in object space, for programs that may ask.
+    pub object_ray: (Vec3, Vec3),
+    pub hit: HitState,
+}
+
+impl Seen {
+    const NO_OBJECT: (Vec3, Vec3) = (Vec3::ZERO, Vec3::ZERO);
+
+    fn without_hit(ray: Ray) -> Self {
+        Self { ray, object_ray: Self::NO_OBJECT, hit: HitState::NONE }
+    }
+}
+
+impl<'c> Call<'c> {
+    /// Runs the launch's ray-generation program for a launch index.
+    pub fn raygen(job: &'c Job<'c>, index: UVec3, running: &'c Cell<&'static str>) {
+        // It has no payload, and the frame needs one.
+        let payload = Cell::new(WordBuffer::ZERO);
+        let call = Call { job, index, depth: 0, running, payload: &payload, watch: None };
+        let entry = &job.description.raygen[job.raygen].entry;
+        let seen = Seen::without_hit(Ray::new(Vec3::ZERO, Vec3::ZERO));
+        let _ = call.run(entry, &job.sbt.raygen, job.raygen, seen, &call);
+    }
+
+    /// Runs a program with the data of record `record` of `section`.
+    #[inline]
+    pub fn run<K>(
+        &self,
+        entry: &Entry,
+        section: &Section<K>,
+        record: usize,
+        seen: Seen,
+        executor: &dyn Executor,
+    ) -> Decision {
+        let frame = Frame {
+            executor,
+            launch_index: self.index,
+            launch_dimensions: self.job.dimensions,
+            params: NonNull::from(&self.job.params[..]).cast(),
+            record: NonNull::from(section.data(record)).cast(),
+            payload: self.payload,
+            watch: self.watch.map(|watch| watch as &dyn PayloadWatch),
+            ray: seen.ray,
+            object_ray: seen.object_ray,
+            hit: seen.hit,
+        };
+        let caller = self.running.replace(entry.name);
+        // SAFETY: the parameters were lowered from `P::Params` of the pipeline that the entry belongs to, and the section's
+        // record from the record type that `pipeline!` tied to the program; both are aligned to 16 and outlive the call.
+        let decision = unsafe { (entry.run)(&frame) };
+        self.running.set(caller);
+        decision
+    }
+
+    /// Traces a ray; the programs find the payload in `payload` and leave it there.
+    pub fn trace(&self, trace: &TraceCall, payload: &mut WordBuffer) {
+        let job = self.job;
+        let depth = self.depth + 1;
+        if depth > job.trace_depth {
+            trap(format!(
+                "trace calls nest deeper than the pipeline's trace depth of {} (guide 12, G013)",
+                job.trace_depth
+            ));
+        }
+        let watch = job.checked.then(|| checks::trace(job, trace));
+        let call = Call { depth, payload: Cell::from_mut(payload), watch: watch.as_ref(), ..*self };
+        call.find(trace);
+        if let Some(watch) = &watch {
+            watch.returns(trace.caller_reads);
+        }
+    }
+
+    /// Traverses, and runs the closest-hit or the miss program.
+    fn find(&self, trace: &TraceCall) {
+        let (job, ray) = (self.job, trace.ray);
+        let query = RayQuery {
+            origin: ray.origin.to_array(),
+            direction: ray.direction.to_array(),
+            tmin: ray.tmin,
+            tmax: ray.tmax,
+            time: ray.time,
+            mask: ray.mask,
+            flags: ray.flags.bits(),
+            sbt_offset: trace.sbt_offset,
+            sbt_stride: trace.sbt_stride,
+        };
+        let root = core::ptr::with_exposed_provenance::<Accel>(trace.traversable as usize);
+        // SAFETY: a traversable is null or comes from a `World` that the launch keeps alive, of this device (checked).
+        let root = unsafe { root.as_ref() };
+        let Some(hit) = kernel::trace(root, &query, &mut Traversal { call: *self, ray }) else {
+            if let Some(program) = &job.ray(trace.miss_index).miss {
+                let miss = trace.miss_index as usize;
+                let _ = self.run(&program.entry, &job.sbt.miss, miss, Seen::without_hit(ray), self);
+            }
+            return;
+        };
+        if ray.flags.closesthit_disabled() {
+            return;
+        }
+        if let Some(entry) = &job.hit_programs(hit.sbt_index).closesthit {
+            let state = HitState {
+                primitive_index: hit.primitive_index,
+                sbt_gas_index: hit.sbt_gas_index,
+                instance_id: hit.path.instance_id(),
+                instance_index: hit.path.instance_index(),
+                kind: hit.hit_kind,
+                attributes: hit.attributes,
+            };
+            let executor = AtHit { call: self, path: &hit.path, vertices: || hit.triangle_vertices() };
+            let seen = Seen { ray: Ray { tmax: hit.t, ..ray }, object_ray: Seen::NO_OBJECT, hit: state };
+            let _ = self.run(entry, &job.sbt.hit, hit.sbt_index as usize, seen, &executor);
+        }
+    }
+}
+
+/// Programs that have no hit.
+impl Executor for Call<'_> {
+    fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
+        Call::trace(self, call, payload);
+    }
+    fn report(&self, _: f32, _: u8, _: usize, _: &WordBuffer) -> bool {
+        trap("only an intersection program reports hits".into())
+    }
+    fn interval_end(&self) -> f32 {
+        trap("only an intersection program has an interval that shrinks".into())
+    }
+    fn triangle_vertices(&self) -> [Vec3; 3] {
+        trap("there is no triangle".into())
+    }
+    fn object_to_world(&self) -> [[f32; 4]; 3] {
+        trap("there is no hit, so no transform".into())
+    }
+    fn world_to_object(&self) -> [[f32; 4]; 3] {
+        trap("there is no hit, so no transform".into())
+    }
+}

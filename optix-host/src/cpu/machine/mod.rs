@@ -1,0 +1,135 @@
+//! A launch: its indices on all threads, and the calls of programs through the shader binding table.
+//!
+//! | module | what |
+//! | --- | --- |
+//! | `call` | program calls and trace calls |
+//! | `traversal` | the programs that run during traversal, and what programs at a primitive may ask |
+//! | `checks` | what the checked mode traps |
+
+mod call;
+mod checks;
+#[cfg(test)]
+mod tests;
+mod traversal;
+
+use crate::pipeline::Plan;
+use crate::sbt::ShaderBindingTable;
+use crate::{Error, Result};
+use call::Call;
+use core::cell::Cell;
+use glam::UVec3;
+use optix_device_rs::host::{HitPrograms, PipelineDescription, RayDescription};
+use rayon::prelude::*;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+/// Launch indices that a thread takes at a time.
+const CHUNK: u64 = 64;
+
+/// A launch.
+pub(super) struct Job<'a> {
+    description: &'a PipelineDescription,
+    trace_depth: u32,
+    sbt: &'a ShaderBindingTable,
+    /// A copy of the parameters at an address that is a multiple of 16.
+    params: Vec<u128>,
+    raygen: usize,
+    dimensions: UVec3,
+    /// Whether programs are checked for what the guide leaves undefined; see [`checks`].
+    checked: bool,
+}
+
+impl<'a> Job<'a> {
+    pub fn new(
+        plan: &'a Plan,
+        sbt: &'a ShaderBindingTable,
+        params: &[u8],
+        raygen: usize,
+        dimensions: [u32; 3],
+        checked: bool,
+    ) -> Self {
+        let mut copy = vec![0u128; params.len().div_ceil(16).max(1)];
+        bytemuck::cast_slice_mut(&mut copy)[..params.len()].copy_from_slice(params);
+        let (description, trace_depth) = (&plan.description, plan.trace_depth);
+        Self { description, trace_depth, sbt, params: copy, raygen, dimensions: dimensions.into(), checked }
+    }
+
+    /// The ray type whose miss record this is.
+    #[inline]
+    fn ray(&self, miss_index: u32) -> &RayDescription {
+        match self.description.rays.get(miss_index as usize) {
+            Some(ray) => ray,
+            None => trap(format!(
+                "there is no miss record {miss_index}: the pipeline has {} (guide 13.2, G012)",
+                self.description.rays.len()
+            )),
+        }
+    }
+
+    /// The programs of a hit record. Without such a record, the program that made the hit ends the launch.
+    #[inline]
+    fn hit_programs(&self, sbt_index: u32) -> &HitPrograms {
+        match self.sbt.hit.programs().get(sbt_index as usize) {
+            Some(slot) => &self.description.hitgroups[slot.group].rays[slot.ray],
+            None => trap(format!(
+                "a hit asks for record {sbt_index} of the hit-group table, which has {} (guide 7.3, D016)",
+                self.sbt.hit.programs().len()
+            )),
+        }
+    }
+}
+
+/// Runs the launch on all threads of the current pool.
+pub(super) fn run(job: &Job<'_>) -> Result<()> {
+    let size = job.dimensions.as_u64vec3();
+    let total = size.x * size.y * size.z;
+    let failed = AtomicBool::new(false);
+    let first: Mutex<Option<(u64, Error)>> = Mutex::new(None);
+    (0..total.div_ceil(CHUNK)).into_par_iter().for_each(|chunk| {
+        for linear in chunk * CHUNK..((chunk + 1) * CHUNK).min(total) {
+            if failed.load(Relaxed) {
+                return;
+            }
+            let index = UVec3::new(
+                (linear % size.x) as u32,
+                (linear / size.x % size.y) as u32,
+                (linear / (size.x * size.y)) as u32,
+            );
+            if let Err(error) = run_index(job, index) {
+                failed.store(true, Relaxed);
+                let mut first = first.lock().unwrap_or_else(|e| e.into_inner());
+                if first.as_ref().is_none_or(|(at, _)| linear < *at) {
+                    *first = Some((linear, error));
+                }
+            }
+        }
+    });
+    match first.into_inner().unwrap_or_else(|e| e.into_inner()) {
+        Some((_, error)) => Err(error),
+        None => Ok(()),
+    }
+}
+
+/// What ends a launch index: carried by unwinding out of the programs.
+struct Trap(String);
+
+/// Ends the launch index; the message names the rule that the running program broke.
+#[cold]
+fn trap(what: String) -> ! {
+    resume_unwind(Box::new(Trap(what)))
+}
+
+fn run_index(job: &Job<'_>, index: UVec3) -> Result<()> {
+    let running = Cell::new(job.description.raygen[job.raygen].entry.name);
+    catch_unwind(AssertUnwindSafe(|| Call::raygen(job, index, &running))).map_err(|panic| {
+        let what = if let Some(Trap(what)) = panic.downcast_ref() {
+            what.clone()
+        } else if let Some(what) = panic.downcast_ref::<String>() {
+            what.clone()
+        } else {
+            panic.downcast_ref::<&str>().map_or("it panicked".into(), |what| what.to_string())
+        };
+        Error::Program { program: running.get().into(), index: index.to_array(), what }
+    })
+}

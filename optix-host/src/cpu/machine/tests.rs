@@ -1,0 +1,250 @@
+//! What the checked mode traps, one test a rule. The typed API can't say most of this, so the programs are written by
+//! hand, on the frame.
+
+use super::*;
+use crate::cpu::kernel::{Aabb, AabbInput, Accel, Gas, GeometryFlags, SbtMapping, TriangleInput};
+use crate::sbt::{HitProgram, Section};
+use glam::Vec3;
+use optix_device_rs::host::{
+    Entry, Frame, GeometryKind, HitGroupDescription, ParamsDescription, PayloadDescription, ProgramDescription,
+    RayDescription, RecordLayout, TraceCall,
+};
+use optix_device_rs::machine::Cx;
+use optix_device_rs::prelude::{AnyHitMode, Decision, Ray, RayFlags};
+use optix_device_rs::words::WordBuffer;
+
+/// What the programs do. Masks are of payload words.
+#[derive(Clone, Copy)]
+struct Script {
+    call: TraceCall,
+    /// Trace calls that the closest-hit program makes, one in the other.
+    nested: u32,
+    anyhit_gives: u32,
+    closesthit_takes: u32,
+    closesthit_gives: u32,
+    miss_gives: u32,
+    report: (f32, u32),
+}
+
+thread_local! {
+    static SCRIPT: Cell<Option<Script>> = const { Cell::new(None) };
+}
+
+fn script() -> Script {
+    SCRIPT.get().unwrap()
+}
+
+/// The context of a hand-written program.
+fn cx(frame: &Frame<'_>) -> Cx {
+    // SAFETY: it does not outlive the program call, and these programs read neither parameters nor record.
+    unsafe { Cx::new(frame) }
+}
+
+macro_rules! programs {
+    ($($name:ident: |$cx:ident| $body:expr;)*) => {$(
+        unsafe fn $name(frame: &Frame<'_>) -> Decision {
+            let $cx = cx(frame);
+            $body;
+            Decision::Accept
+        }
+    )*};
+}
+programs! {
+    raygen: |cx| cx.trace(&script().call, WordBuffer::ZERO);
+    anyhit: |cx| cx.set_payload(script().anyhit_gives, &WordBuffer::ZERO);
+    closesthit: |cx| {
+        cx.payload(script().closesthit_takes);
+        if let Some(nested) = script().nested.checked_sub(1) {
+            SCRIPT.set(Some(Script { nested, ..script() }));
+            cx.trace(&script().call, WordBuffer::ZERO);
+        }
+        cx.set_payload(script().closesthit_gives, &WordBuffer::ZERO);
+    };
+    miss: |cx| cx.set_payload(script().miss_gives, &WordBuffer::ZERO);
+    intersection: |cx| cx.report(script().report.0, script().report.1, 0, &WordBuffer::ZERO);
+}
+
+const fn entry(name: &'static str, run: unsafe fn(&Frame<'_>) -> Decision) -> Entry {
+    Entry { name, function: name, run }
+}
+const RECORD: RecordLayout = RecordLayout { name: "()", size: 0, align: 1 };
+const fn group(geometry: GeometryKind, rays: &'static [HitPrograms]) -> HitGroupDescription {
+    HitGroupDescription { record: RECORD, geometry, attribute_words: 0, rays }
+}
+const HIT: HitPrograms = HitPrograms {
+    closesthit: Some(entry("__closesthit__test", closesthit)),
+    anyhit: Some(entry("__anyhit__test", anyhit)),
+    intersection: None,
+};
+static PIPELINE: PipelineDescription = PipelineDescription {
+    name: "Test",
+    params: ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[] },
+    raygen: &[ProgramDescription { entry: entry("__raygen__test", raygen), record: RECORD }],
+    rays: &[RayDescription {
+        payload: PayloadDescription { name: "Radiance", semantics: &[0; 4] },
+        miss: Some(ProgramDescription { entry: entry("__miss__test", miss), record: RECORD }),
+    }],
+    hitgroups: &[
+        group(GeometryKind::Triangles, &[HIT]),
+        group(
+            GeometryKind::Custom,
+            &[HitPrograms { intersection: Some(entry("__intersection__test", intersection)), ..HIT }],
+        ),
+    ],
+    trace_depth: None,
+};
+
+/// A ray down on a triangle, or on a box, and a call that breaks no rule: word 0 goes in and comes back.
+fn lawful(custom: bool) -> Script {
+    let call = TraceCall {
+        payload_type: 1,
+        payload_words: 4,
+        traversable: 0,
+        ray: Ray::new(Vec3::new(0.25, 0.25, 2.0), Vec3::NEG_Z),
+        sbt_offset: u32::from(custom),
+        sbt_stride: 1,
+        miss_index: 0,
+        caller_writes: 1,
+        caller_reads: 1,
+    };
+    let report = (1.5, 127);
+    Script { call, nested: 0, anyhit_gives: 0, closesthit_takes: 1, closesthit_gives: 0, miss_gives: 0, report }
+}
+
+/// Runs launch index (3, 1, 0) of a launch by the script; the message if it is trapped.
+fn run(custom: bool, checked: bool, mut script: Script) -> Option<String> {
+    let sbt = SbtMapping::single(GeometryFlags::default());
+    let gas = if custom {
+        let boxes = vec![Aabb::new([0.0; 3], [1.0; 3])];
+        Gas::custom(vec![AabbInput { boxes, sbt, primitive_index_offset: 0 }])
+    } else {
+        let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        Gas::triangles(vec![TriangleInput { vertices, indices: None, sbt, primitive_index_offset: 0 }])
+    };
+    let accel = Accel::from(gas.unwrap());
+    if script.call.traversable == 0 {
+        script.call.traversable = (&raw const accel).expose_provenance() as u64;
+    }
+    SCRIPT.set(Some(script));
+    let none: &[u8] = &[];
+    let sbt = ShaderBindingTable {
+        raygen: Section::new([(0, none)]),
+        miss: Section::new([(0, none)]),
+        hit: Section::new([0, 1].map(|group| (HitProgram { group, ray: 0 }, none))),
+    };
+    let job = Job {
+        description: &PIPELINE,
+        trace_depth: 2,
+        sbt: &sbt,
+        params: vec![0],
+        raygen: 0,
+        dimensions: UVec3::new(4, 2, 1),
+        checked,
+    };
+    run_index(&job, UVec3::new(3, 1, 0)).err().map(|error| error.to_string())
+}
+
+/// The call, changed, is trapped in checked mode, with all of these words in the message, and not otherwise.
+#[track_caller]
+fn traps(custom: bool, change: impl FnOnce(&mut Script), program: &str, words: &[&str]) {
+    assert_eq!(run(custom, true, lawful(custom)), None);
+    let mut script = lawful(custom);
+    change(&mut script);
+    assert_eq!(run(custom, false, script), None);
+    let message = run(custom, true, script).expect("the checked mode says nothing");
+    for part in [program, "[3, 1, 0]"].iter().chain(words) {
+        assert!(message.contains(part), "no `{part}` in: {message}");
+    }
+}
+
+#[test]
+fn rays_that_are_not_finite() {
+    let raygen = "__raygen__test";
+    traps(false, |s| s.call.ray.origin.y = f32::NAN, raygen, &["origin [0.25, NaN, 2] is not finite", "G008"]);
+    traps(false, |s| s.call.ray.direction.z = f32::INFINITY, raygen, &["direction", "not finite", "G008"]);
+    traps(false, |s| s.call.ray.direction = Vec3::ZERO, raygen, &["no direction", "G008"]);
+}
+
+#[test]
+fn intervals() {
+    let raygen = "__raygen__test";
+    traps(false, |s| s.call.ray.tmin = -1e-3, raygen, &["tmin is negative: -0.001", "G010"]);
+    traps(false, |s| s.call.ray.tmin = f32::NAN, raygen, &["tmin is NaN", "G010"]);
+    traps(false, |s| s.call.ray.tmin = f32::INFINITY, raygen, &["tmin is inf", "G010"]);
+    traps(false, |s| s.call.ray.tmax = f32::NAN, raygen, &["tmax is NaN", "G010"]);
+    let mut endless = lawful(false);
+    endless.call.ray.tmax = f32::INFINITY;
+    assert_eq!(run(false, true, endless), None);
+}
+
+#[test]
+fn flags_that_exclude_each_other() {
+    let both = |a: RayFlags, b: RayFlags| RayFlags::from_bits(a.bits() | b.bits());
+    let disable = RayFlags::NONE.any_hit(AnyHitMode::Disable);
+    let enforce = RayFlags::NONE.any_hit(AnyHitMode::Enforce);
+    traps(false, |s| s.call.ray.flags = both(disable, enforce), "__raygen__test", &["0x3", "exclude", "G016"]);
+}
+
+#[test]
+fn reported_hits() {
+    let program = "__intersection__test";
+    traps(true, |s| s.report.1 = 128, program, &["hit kind 128", "G030"]);
+    traps(true, |s| s.report.0 = f32::NAN, program, &["t = NaN", "G034"]);
+}
+
+#[test]
+fn payload_words_that_nobody_wrote() {
+    // The closest-hit program takes a word that only any-hit gives, and any-hit is off.
+    let change = |s: &mut Script| {
+        s.anyhit_gives = 4;
+        s.closesthit_takes = 4;
+        s.call.ray.flags = RayFlags::NONE.any_hit(AnyHitMode::Disable);
+    };
+    traps(false, change, "__closesthit__test", &["payload word 2 of `Radiance` is read", "H024"]);
+    // With any-hit it is lawful.
+    let mut given = lawful(false);
+    (given.anyhit_gives, given.closesthit_takes) = (4, 4);
+    assert_eq!(run(false, true, given), None);
+}
+
+#[test]
+fn payload_words_that_come_back_unwritten() {
+    // Closest-hit and miss give the word, and the ray runs neither.
+    let change = |s: &mut Script| {
+        (s.closesthit_gives, s.miss_gives, s.call.caller_reads) = (8, 8, 8);
+        s.call.ray.flags = RayFlags::NONE.disable_closesthit();
+    };
+    traps(false, change, "__raygen__test", &["payload word 3 of `Radiance`", "comes back", "H024"]);
+    for towards in [Vec3::NEG_Z, Vec3::Z] {
+        let mut given = lawful(false);
+        change(&mut given);
+        given.call.ray = Ray::new(given.call.ray.origin, towards);
+        assert_eq!(run(false, true, given), None);
+    }
+}
+
+/// These would read outside of tables, so they are trapped in either mode.
+#[test]
+fn records_and_depth() {
+    for checked in [false, true] {
+        let mut outside = lawful(false);
+        outside.call.sbt_offset = 2;
+        let message = run(false, checked, outside).unwrap();
+        assert!(message.contains("record 2 of the hit-group table, which has 2"), "{message}");
+        assert!(message.contains("D016"), "{message}");
+
+        let mut deep = lawful(false);
+        deep.nested = 1;
+        assert_eq!(run(false, checked, deep), None);
+        deep.nested = 2;
+        let message = run(false, checked, deep).unwrap();
+        assert!(message.contains("trace depth of 2") && message.contains("G013"), "{message}");
+        assert!(message.contains("__closesthit__test"), "{message}");
+
+        let mut nowhere = lawful(false);
+        nowhere.call.ray.direction = Vec3::Z;
+        nowhere.call.miss_index = 1;
+        let message = run(false, checked, nowhere).unwrap();
+        assert!(message.contains("no miss record 1: the pipeline has 1") && message.contains("G012"), "{message}");
+    }
+}

@@ -1,0 +1,128 @@
+//! The programs that run while a ray is traversed, and what programs at a primitive may ask.
+
+use super::call::{Call, Seen};
+use super::checks;
+use crate::cpu::kernel::{self, Candidate, InstancePath, Programs, Reporter, Site};
+use core::cell::RefCell;
+use glam::Vec3;
+use optix_device_rs::host::{Executor, HitState, TraceCall};
+use optix_device_rs::prelude::{Decision, Ray};
+use optix_device_rs::words::WordBuffer;
+
+/// Programs at a primitive: closest-hit and any-hit. `V` finds the corners of a triangle.
+pub(super) struct AtHit<'c, V> {
+    pub call: &'c Call<'c>,
+    pub path: &'c InstancePath<'c>,
+    pub vertices: V,
+}
+
+fn rows(matrix: [f32; 12]) -> [[f32; 4]; 3] {
+    bytemuck::cast(matrix)
+}
+
+impl<V: Fn() -> Option<[[f32; 3]; 3]>> Executor for AtHit<'_, V> {
+    fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
+        self.call.trace(call, payload);
+    }
+    fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool {
+        self.call.report(t, kind, count, attributes)
+    }
+    fn interval_end(&self) -> f32 {
+        self.call.interval_end()
+    }
+    fn triangle_vertices(&self) -> [Vec3; 3] {
+        match (self.vertices)() {
+            Some(vertices) => vertices.map(Vec3::from_array),
+            None => self.call.triangle_vertices(),
+        }
+    }
+    fn object_to_world(&self) -> [[f32; 4]; 3] {
+        rows(self.path.object_to_world())
+    }
+    fn world_to_object(&self) -> [[f32; 4]; 3] {
+        rows(self.path.world_to_object())
+    }
+}
+
+/// An intersection program at its primitive.
+struct AtPrimitive<'c, 't, 'p, 'r, 's> {
+    call: &'c Call<'c>,
+    path: &'c InstancePath<'c>,
+    traversal: RefCell<&'t mut Traversal<'p>>,
+    reporter: RefCell<&'t mut Reporter<'r, 's>>,
+}
+
+impl Executor for AtPrimitive<'_, '_, '_, '_, '_> {
+    fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
+        self.call.trace(call, payload);
+    }
+    fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool {
+        if self.call.job.checked {
+            checks::report(t, kind);
+        }
+        // The any-hit program that this may call gets executors of its own, so neither cell is borrowed twice.
+        self.reporter.borrow_mut().report(&mut **self.traversal.borrow_mut(), t, kind, &attributes.0[..count])
+    }
+    fn interval_end(&self) -> f32 {
+        self.reporter.borrow().tmax()
+    }
+    fn triangle_vertices(&self) -> [Vec3; 3] {
+        self.call.triangle_vertices()
+    }
+    fn object_to_world(&self) -> [[f32; 4]; 3] {
+        rows(self.path.object_to_world())
+    }
+    fn world_to_object(&self) -> [[f32; 4]; 3] {
+        rows(self.path.world_to_object())
+    }
+}
+
+/// The programs that run while a ray is traversed.
+pub(super) struct Traversal<'c> {
+    pub call: Call<'c>,
+    pub ray: Ray,
+}
+
+/// What a program at a primitive sees; `ray` with the `tmax` that is right for the program.
+fn seen(site: &Site<'_>, ray: Ray, kind: u8, attributes: [u32; 8]) -> Seen {
+    Seen {
+        ray,
+        object_ray: (Vec3::from_array(site.object_ray.origin), Vec3::from_array(site.object_ray.direction)),
+        hit: HitState {
+            primitive_index: site.primitive_index,
+            sbt_gas_index: site.sbt_gas_index,
+            instance_id: site.path.instance_id(),
+            instance_index: site.path.instance_index(),
+            kind,
+            attributes,
+        },
+    }
+}
+
+impl Programs for Traversal<'_> {
+    fn any_hit(&mut self, candidate: &Candidate<'_>) -> kernel::AnyHit {
+        let (call, site) = (&self.call, &candidate.site);
+        let Some(entry) = &call.job.hit_programs(site.sbt_index).anyhit else { return kernel::AnyHit::Accept };
+        let executor = AtHit { call, path: site.path, vertices: || candidate.triangle_vertices() };
+        let ray = Ray { tmax: candidate.t, ..self.ray };
+        let seen = seen(site, ray, candidate.hit_kind, candidate.attributes);
+        match call.run(entry, &call.job.sbt.hit, site.sbt_index as usize, seen, &executor) {
+            Decision::Accept => kernel::AnyHit::Accept,
+            Decision::Ignore => kernel::AnyHit::Ignore,
+            Decision::Terminate => kernel::AnyHit::Terminate,
+        }
+    }
+
+    fn intersect(&mut self, site: &Site<'_>, reporter: &mut Reporter<'_, '_>) {
+        let (call, ray) = (self.call, self.ray);
+        let Some(entry) = &call.job.hit_programs(site.sbt_index).intersection else { return };
+        let executor = AtPrimitive {
+            call: &call,
+            path: site.path,
+            traversal: RefCell::new(self),
+            reporter: RefCell::new(reporter),
+        };
+        let seen = seen(site, ray, 0, [0; 8]);
+        let _ = call.run(entry, &call.job.sbt.hit, site.sbt_index as usize, seen, &executor);
+    }
+}
