@@ -17,13 +17,10 @@ use crate::util;
 /// unresolved by the check of the PTX.
 const COMPILER_BUILTINS: &str = "#![no_std]\n#![feature(compiler_builtins)]\n#![compiler_builtins]\n";
 
-/// Changes with the flags below, so that a sysroot made with others is not taken.
-const HOW: &str = "2";
-
 /// The sysroot for `compiler` and `arch` under `area`, compiled if it is not there yet. About 15 s on two cores, once.
 pub(crate) fn ensure(compiler: &DeviceCompiler, arch: &str, area: &Path, quiet: bool) -> Result<PathBuf, Error> {
     // The architecture is part of it: LLVM does not inline between functions of different target CPUs.
-    let name = format!("sysroot-{}", util::hash([compiler.version.as_str(), arch, HOW]));
+    let name = format!("sysroot-{}", util::hash([compiler.version.as_str(), arch]));
     let sysroot = area.join(&name);
     if sysroot.is_dir() {
         return Ok(sysroot);
@@ -53,9 +50,6 @@ pub(crate) fn ensure(compiler: &DeviceCompiler, arch: &str, area: &Path, quiet: 
             // The machine code of an rlib is never used, since everything is optimised together at the end: leave it
             // out, and optimise in parallel.
             .args(["-Clinker-plugin-lto", "-Ccodegen-units=16"])
-            // Nor are most of its functions: the crates that call them compile them, so that what nobody calls is never
-            // compiled. That is a sixth of the time; the PTX stays the same.
-            .arg("-Zcross-crate-inline-threshold=always")
             .arg("-Zforce-unstable-if-unmarked")
             .arg(format!("-Ctarget-cpu={arch}"))
             .arg("--sysroot")

@@ -107,7 +107,7 @@ fn fuzz() {
     let mut random = Random(0x0971);
     let end = Instant::now() + Duration::from_secs(seconds.unwrap_or(60));
     // Without a wish for more time, a number of inputs, so that every run is the same.
-    let most = if seconds.is_some() { u64::MAX } else { 8_000 };
+    let most = if seconds.is_some() { u64::MAX } else { 4_000 };
     let mut count = 0;
     while count < most && Instant::now() < end {
         let (name, mut arguments, mut item) = random.of(&seeds.0).clone();

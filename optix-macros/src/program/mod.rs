@@ -1,5 +1,6 @@
 //! `#[raygen]`, `#[miss]`, `#[closesthit]`, `#[anyhit]`, `#[intersection]`.
 
+mod check;
 mod emit;
 mod model;
 

@@ -78,7 +78,7 @@ const HIT: HitPrograms = HitPrograms {
 };
 static PIPELINE: PipelineDescription = PipelineDescription {
     name: "Test",
-    params: ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[] },
+    params: ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[], fingerprint: 0 },
     raygen: &[ProgramDescription { entry: entry("__raygen__test", raygen), record: RECORD }],
     rays: &[RayDescription {
         payload: PayloadDescription { name: "Radiance", semantics: &[0; 4] },
