@@ -47,58 +47,58 @@ pub trait Words: Copy + 'static {
 }
 
 macro_rules! one_word {
-    ($($ty:ty: $to:expr, $from:expr;)*) => {$(
+    ($($ty:ty: |$value:ident| $to:expr, |$word:ident| $from:expr;)*) => {$(
         impl Words for $ty {
             const COUNT: usize = 1;
             #[inline(always)]
             fn store(self, words: &mut WordBuffer, at: usize) {
-                let to: fn($ty) -> u32 = $to;
-                words.0[at] = to(self);
+                let $value = self;
+                words.0[at] = $to;
             }
             #[inline(always)]
             fn load(words: &WordBuffer, at: usize) -> Self {
-                let from: fn(u32) -> $ty = $from;
-                from(words.0[at])
+                let $word = words.0[at];
+                $from
             }
         }
     )*};
 }
 
 one_word! {
-    u32: u32::from, u32::from;
-    i32: i32::cast_unsigned, u32::cast_signed;
-    f32: f32::to_bits, f32::from_bits;
-    bool: u32::from, |w| w != 0;
-    u16: u32::from, |w| w as u16;
-    u8: u32::from, |w| w as u8;
+    u32: |v| v, |w| w;
+    i32: |v| v.cast_unsigned(), |w| w.cast_signed();
+    f32: |v| v.to_bits(), |w| f32::from_bits(w);
+    bool: |v| u32::from(v), |w| w != 0;
+    u16: |v| u32::from(v), |w| w as u16;
+    u8: |v| u32::from(v), |w| w as u8;
     i16: |v| v as u32, |w| w as i16;
     i8: |v| v as u32, |w| w as i8;
 }
 
 macro_rules! two_words {
-    ($($ty:ty: $to:expr, $from:expr;)*) => {$(
+    ($($ty:ty: |$value:ident| $to:expr, |$bits:ident| $from:expr;)*) => {$(
         impl Words for $ty {
             const COUNT: usize = 2;
             #[inline(always)]
             fn store(self, words: &mut WordBuffer, at: usize) {
-                let to: fn($ty) -> u64 = $to;
-                let bits = to(self);
+                let $value = self;
+                let bits: u64 = $to;
                 words.0[at] = bits as u32;
                 words.0[at + 1] = (bits >> 32) as u32;
             }
             #[inline(always)]
             fn load(words: &WordBuffer, at: usize) -> Self {
-                let from: fn(u64) -> $ty = $from;
-                from(words.0[at] as u64 | (words.0[at + 1] as u64) << 32)
+                let $bits = u64::from(words.0[at]) | u64::from(words.0[at + 1]) << 32;
+                $from
             }
         }
     )*};
 }
 
 two_words! {
-    u64: u64::from, u64::from;
-    i64: i64::cast_unsigned, u64::cast_signed;
-    f64: f64::to_bits, f64::from_bits;
+    u64: |v| v, |w| w;
+    i64: |v| v.cast_unsigned(), |w| w.cast_signed();
+    f64: |v| v.to_bits(), |w| f64::from_bits(w);
 }
 
 impl Words for () {

@@ -44,10 +44,11 @@ fn run(args: &Args) -> Result<(), Box<dyn Error>> {
         rayon::ThreadPoolBuilder::new().num_threads(args.threads as usize).build_global()?;
     }
     let optix = OptixOptions { validation: args.validate };
+    let cpu = || if args.validate { Device::cpu_checked() } else { Device::cpu() };
     let device = match args.device {
         DeviceChoice::Auto if !args.validate => Device::best()?,
-        DeviceChoice::Auto => Device::optix_with(&optix).or_else(|_| Device::cpu())?,
-        DeviceChoice::Cpu => Device::cpu()?,
+        DeviceChoice::Auto => Device::optix_with(&optix).or_else(|_| cpu())?,
+        DeviceChoice::Cpu => cpu()?,
         DeviceChoice::Optix => Device::optix_with(&optix)?,
     };
     println!("device: {}", device.description());
@@ -95,6 +96,9 @@ fn run(args: &Args) -> Result<(), Box<dyn Error>> {
         relative_error: render.moments().estimate().relative,
         rejected_samples: render.moments().rejected().samples,
     };
+    for complaint in device.take_complaints() {
+        eprintln!("driver: {complaint}");
+    }
     println!("{summary}");
     println!("wrote {}", args.out.display());
     Ok(())
