@@ -95,9 +95,9 @@ impl Cx {
         }
         // Word by word: the mask is a constant, and most payloads are much smaller than the buffer.
         let payload = each_word(self.frame().payload);
-        for (i, (to, from)) in payload.iter().zip(words.0).enumerate() {
+        for (i, (to, from)) in payload.iter().zip(&words.0).enumerate() {
             if mask & 1 << i != 0 {
-                to.set(from);
+                to.set(*from);
             }
         }
     }

@@ -24,8 +24,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-/// Launch indices that a thread takes at a time.
-const CHUNK: u64 = 64;
+/// Launch indices that a thread takes at a time: few, since one may be a whole pixel's paths, and the last chunk of a
+/// launch keeps the other threads waiting; enough that taking them costs nothing beside one ray each.
+const CHUNK: u64 = 16;
 
 /// A launch.
 pub(super) struct Job<'a> {
