@@ -1,8 +1,9 @@
 //! Rates of the CPU kernel in rays per second, against Embree 3 (single-ray, robust) where its library is installed.
 //!
-//! `cargo bench -p optix-tests --bench kernel [-- FILTER]`. Both trace the same rays in the same run, in turns of a
-//! millisecond. Printed are rates from each turn's least time over all repeats, their ratio, and the median and range of
-//! each repeat's ratio. The meshes are generated and, where it is there, the Stanford bunny.
+//! `cargo bench -p optix-tests --bench kernel [-- FILTER]`. Criterion gives each contestant's time and rate with its
+//! spread. A contestant other than ours takes turns of a millisecond with ours, so that other load on the machine meets
+//! both alike; printed after it are the rates of the two by each turn's least time, their ratio, and the median and range
+//! of the ratio over criterion's samples. The meshes are generated and, where it is there, the Stanford bunny.
 
 #[path = "kernel/embree.rs"]
 mod embree;
@@ -10,8 +11,9 @@ mod embree;
 mod scene;
 
 use std::hint::black_box;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
+use criterion::{Criterion, Throughput};
 use optix_host::cpu::kernel::{
     Accel, AnyHit, Candidate, Gas, GeometryFlags, Portable, Programs, RayQuery, Reporter, SbtMapping, Site,
     TriangleInput, ray_flags, trace, trace_with,
@@ -31,12 +33,16 @@ impl Programs for Opaque {
     fn intersect(&mut self, _: &Site<'_>, _: &mut Reporter<'_, '_>) {}
 }
 
-const REPEATS: usize = 15;
 /// Rays that each contestant traces in its turn: a millisecond or two.
-const PART: usize = 4096;
+const TURN: usize = 4096;
 
 fn main() {
-    let filter = std::env::args().skip(1).find(|a| !a.starts_with('-')).unwrap_or_default();
+    let mut criterion = Criterion::default()
+        .sample_size(15)
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(2))
+        .without_plots()
+        .configure_from_args();
     let embree = embree::Embree::load();
     match &embree {
         Ok(_) => println!("Embree 3: rtcIntersect1/rtcOccluded1, RTC_SCENE_FLAG_ROBUST"),
@@ -48,33 +54,25 @@ fn main() {
         let begin = Instant::now();
         let accel = build(&mesh);
         let built = begin.elapsed();
+        let begin = Instant::now();
+        let other = embree.as_ref().ok().map(|e| e.scene(&mesh));
         println!(
-            "\n{}: {} triangles, built in {:.0} ms, {:.1} MB",
+            "\n{}: {} triangles, built in {:.0} ms (Embree {:.0} ms), {:.1} MB",
             mesh.name,
             mesh.indices.len(),
             built.as_secs_f64() * 1e3,
+            begin.elapsed().as_secs_f64() * 1e3,
             accel.memory_bytes() as f64 / 1e6
         );
-        let begin = Instant::now();
-        let other = embree.as_ref().ok().map(|e| e.scene(&mesh));
-        if other.is_some() {
-            println!("  (Embree built in {:.0} ms)", begin.elapsed().as_secs_f64() * 1e3);
-        }
-        println!(
-            "{:30} {:>9} {:>9} {:>9} {:>9} {:>9} [min, max] of ours/Embree",
-            "Mray/s, least times", "ours", "portable", "Embree", "ratio", "median"
-        );
-        for rays in scene::ray_sets(&mesh, &|ray| {
-            trace(Some(&accel), ray, &mut Opaque).map(|hit| (hit.t, hit.triangle_vertices()))
-        }) {
+        let closest =
+            |ray: &RayQuery| trace(Some(&accel), ray, &mut Opaque).map(|hit| (hit.t, hit.triangle_vertices()));
+        for rays in scene::ray_sets(&mesh, &closest) {
             for threads in [1, rayon::current_num_threads()] {
-                let label = format!("{}, {threads} thread{}", rays.name, if threads == 1 { "" } else { "s" });
-                if label.contains(&filter) {
-                    compare(&label, &accel, other.as_ref(), &rays, threads);
-                }
+                compare(&mut criterion, &mesh.name, &accel, other.as_ref(), &rays, threads);
             }
         }
     }
+    criterion.final_summary();
 }
 
 fn build(mesh: &Mesh) -> Accel {
@@ -88,69 +86,115 @@ fn build(mesh: &Mesh) -> Accel {
     .into()
 }
 
-/// Hits and the sum of their distances.
-type Tally = (usize, f64);
+/// A contestant: traces one ray, and gives the distance of its hit.
+type One<'a> = &'a (dyn Fn(&RayQuery) -> Option<f32> + Sync);
 
-/// Traces all rays and gives the seconds it took.
-fn run(rays: &[RayQuery], threads: usize, one: impl Fn(&RayQuery) -> Option<f32> + Sync) -> (f64, Tally) {
+/// Seconds that `threads` threads take to trace `rays`.
+fn seconds(rays: &[RayQuery], threads: usize, one: impl Fn(&RayQuery) -> Option<f32> + Sync) -> f64 {
     let part = |rays: &[RayQuery]| {
-        rays.iter().fold((0, 0.0), |(hits, sum), ray| match black_box(one(ray)) {
-            Some(t) => (hits + 1, sum + f64::from(t)),
-            None => (hits, sum),
-        })
+        for ray in rays {
+            black_box(one(ray));
+        }
     };
     let begin = Instant::now();
-    let tally = if threads == 1 {
+    if threads == 1 {
         part(rays)
     } else {
-        rays.par_chunks(512).map(part).reduce(|| (0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1))
-    };
-    (begin.elapsed().as_secs_f64(), tally)
+        rays.par_chunks(512).for_each(part)
+    }
+    begin.elapsed().as_secs_f64()
 }
 
-/// Traces `rays` with each contestant in turn, a small part at a time, so that other load on the machine meets all of
-/// them alike. A rate is that of the sum of each part's least time over the repeats.
-fn compare(label: &str, accel: &Accel, other: Option<&embree::Scene<'_>>, rays: &Rays, threads: usize) {
+fn compare(
+    criterion: &mut Criterion,
+    mesh: &str,
+    accel: &Accel,
+    other: Option<&embree::Scene<'_>>,
+    rays: &Rays,
+    threads: usize,
+) {
     let flags = if rays.occlusion { ray_flags::TERMINATE_ON_FIRST_HIT } else { ray_flags::NONE };
     let queries: Vec<RayQuery> = rays.rays.iter().map(|r| RayQuery { flags, ..*r }).collect();
-    let parts: Vec<&[RayQuery]> = queries.chunks(PART * threads).collect();
-    let mut least = vec![[f64::INFINITY; 3]; parts.len()];
-    let mut ratios = Vec::new();
-    let mut hits = [0; 3];
-    for _ in 0..REPEATS {
-        let mut total = [0.0; 3];
-        hits = [0; 3];
-        for (part, least) in parts.iter().zip(&mut least) {
-            let ours = run(part, threads, |ray| trace(Some(accel), ray, &mut Opaque).map(|h| h.t));
-            let theirs = other.map(|scene| {
-                if rays.occlusion {
-                    run(part, threads, |ray| scene.occluded(ray).then_some(0.0))
-                } else {
-                    run(part, threads, |ray| scene.intersect(ray))
-                }
-            });
-            let portable = run(part, threads, |ray| trace_with(Portable, Some(accel), ray, &mut Opaque).map(|h| h.t));
-            if threads == 1 {
-                assert_eq!(ours.1, portable.1, "the instruction sets disagree");
-            }
-            for (i, run) in [Some(ours), Some(portable), theirs].into_iter().enumerate() {
-                if let Some((seconds, tally)) = run {
+    let ours = |ray: &RayQuery| trace(Some(accel), ray, &mut Opaque).map(|hit| hit.t);
+    let portable = |ray: &RayQuery| trace_with(Portable, Some(accel), ray, &mut Opaque).map(|hit| hit.t);
+    for ray in &queries {
+        assert_eq!(ours(ray), portable(ray), "the instruction sets disagree");
+    }
+    let time_ours = |part: &[RayQuery]| seconds(part, threads, ours);
+
+    let plural = if threads == 1 { "" } else { "s" };
+    let mut group = criterion.benchmark_group(format!("{mesh}/{}/{threads} thread{plural}", rays.name));
+    group.throughput(Throughput::Elements(queries.len() as u64));
+    group.bench_function("ours", |b| {
+        b.iter_custom(|iters| (0..iters).map(|_| Duration::from_secs_f64(time_ours(&queries))).sum())
+    });
+    let mut versus = |name: &str, time_theirs: &dyn Fn(&[RayQuery]) -> f64| {
+        let mut turns = Turns::new(queries.chunks(TURN * threads).collect());
+        group.bench_function(name, |b| b.iter_custom(|iters| turns.take(iters, &time_ours, time_theirs)));
+        turns.print(name);
+    };
+    versus("portable", &|part| seconds(part, threads, portable));
+    if let Some(scene) = other {
+        if rays.occlusion {
+            versus("Embree", &|part| seconds(part, threads, |ray| scene.occluded(ray).then_some(0.0)));
+        } else {
+            versus("Embree", &|part| seconds(part, threads, |ray| scene.intersect(ray)));
+        }
+        let hits = |one: One<'_>| queries.iter().filter(|ray| one(ray).is_some()).count();
+        let (mine, theirs) = (hits(&ours), hits(&|ray| scene.intersect(ray)));
+        println!(
+            "    hits {:.1} %, {} of {} rays differ",
+            percent(mine, &queries),
+            mine.abs_diff(theirs),
+            queries.len()
+        );
+    }
+    group.finish();
+}
+
+fn percent(part: usize, of: &[RayQuery]) -> f64 {
+    100.0 * part as f64 / of.len() as f64
+}
+
+/// Times of ours and of another contestant, which trace the same rays in turns.
+struct Turns<'a> {
+    parts: Vec<&'a [RayQuery]>,
+    /// Each part's least seconds, ours and theirs.
+    least: Vec<[f64; 2]>,
+    /// Theirs over ours, of each of criterion's samples.
+    ratios: Vec<f64>,
+}
+
+impl<'a> Turns<'a> {
+    fn new(parts: Vec<&'a [RayQuery]>) -> Self {
+        Self { least: vec![[f64::INFINITY; 2]; parts.len()], parts, ratios: Vec::new() }
+    }
+
+    /// Traces all parts `iters` times with both, and gives the other's time.
+    fn take(&mut self, iters: u64, ours: &dyn Fn(&[RayQuery]) -> f64, theirs: &dyn Fn(&[RayQuery]) -> f64) -> Duration {
+        let mut total = [0.0; 2];
+        for _ in 0..iters {
+            for (part, least) in self.parts.iter().zip(&mut self.least) {
+                for (i, seconds) in [ours(part), theirs(part)].into_iter().enumerate() {
                     least[i] = least[i].min(seconds);
                     total[i] += seconds;
-                    hits[i] += tally.0;
                 }
             }
         }
-        ratios.push(total[2] / total[0]);
+        self.ratios.push(total[1] / total[0]);
+        Duration::from_secs_f64(total[1])
     }
-    ratios.sort_by(f64::total_cmp);
-    let count = queries.len() as f64;
-    let rate = |i: usize| count / least.iter().map(|part| part[i]).sum::<f64>() * 1e-6;
-    print!("{label:30} {:9.2} {:9.2}", rate(0), rate(1));
-    if other.is_some() {
-        let (low, median, high) = (ratios[0], ratios[REPEATS / 2], ratios[REPEATS - 1]);
-        print!(" {:9.2} {:9.2} {median:9.2} [{low:.2}, {high:.2}]", rate(2), rate(0) / rate(2));
-        print!("   hits {:.1} %, {} of {count} differ", 100.0 * hits[0] as f64 / count, hits[0].abs_diff(hits[2]));
+
+    /// Prints nothing where criterion's filter left the contestant out.
+    fn print(&mut self, name: &str) {
+        self.ratios.sort_by(f64::total_cmp);
+        let [Some(low), Some(high)] = [self.ratios.first(), self.ratios.last()] else { return };
+        let median = self.ratios[self.ratios.len() / 2];
+        let count = self.parts.iter().map(|part| part.len()).sum::<usize>() as f64;
+        let [ours, theirs] = [0, 1].map(|i| count / self.least.iter().map(|part| part[i]).sum::<f64>() * 1e-6);
+        println!(
+            "    ours / {name} by least times {ours:.2} / {theirs:.2} Mray/s = {:.2}; median {median:.2} [{low:.2}, {high:.2}]",
+            ours / theirs
+        );
     }
-    println!();
 }
