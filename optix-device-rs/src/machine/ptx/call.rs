@@ -1,0 +1,55 @@
+//! How an intrinsic without arguments is called, and how one is called with as many words as there are.
+
+/// A pure intrinsic without arguments that gives one 32-bit integer.
+macro_rules! get_u32 {
+    ($name:expr) => {{
+        let value: u32;
+        // SAFETY: a pure query of the running program, legal in the programs whose context offers it.
+        unsafe {
+            asm!(
+                concat!("call ({v}), ", $name, ", ();"),
+                v = out(reg32) value,
+                options(pure, nomem, nostack, preserves_flags)
+            )
+        };
+        value
+    }};
+}
+
+/// A pure intrinsic without arguments that gives one `f32`.
+macro_rules! get_f32 {
+    ($name:expr) => {{
+        let value: f32;
+        // SAFETY: as for `get_u32`; the result register is `.f32`.
+        unsafe {
+            asm!(
+                concat!("{{ .reg .f32 f; call (f), ", $name, ", (); mov.b32 {v}, f; }}"),
+                v = out(reg32) value,
+                options(pure, nomem, nostack, preserves_flags)
+            )
+        };
+        value
+    }};
+}
+
+macro_rules! get_vec3 {
+    ($name:literal) => {
+        Vec3::new(get_f32!(concat!($name, "_x")), get_f32!(concat!($name, "_y")), get_f32!(concat!($name, "_z")))
+    };
+}
+
+/// Runs `$arm!([used] [unused])` for the number of payload or attribute words, which is a constant at every call.
+macro_rules! by_count {
+    ($arm:ident, $count:expr, [$($used:ident)*] []) => {
+        $arm!($count, [$($used)*] [])
+    };
+    ($arm:ident, $count:expr, [$($used:ident)*] [$next:ident $($rest:ident)*]) => {
+        $arm!($count, [$($used)*] [$next $($rest)*]);
+        by_count!($arm, $count, [$($used)* $next] [$($rest)*])
+    };
+}
+
+macro_rules! count {
+    () => { 0 };
+    ($first:ident $($rest:ident)*) => { 1 + count!($($rest)*) };
+}

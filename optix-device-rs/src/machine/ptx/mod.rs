@@ -1,0 +1,42 @@
+//! Device functions on the device: OptiX intrinsics, called the way OptiX's PTX reader wants them.
+//!
+//! OptiX checks the register type of every argument and result, and LLVM keeps `f32` in untyped `.b32` registers; so
+//! each asm block declares `.f32` registers of its own and moves the bits across. Names, order, register types and
+//! volatility follow the public device headers of OptiX 9.0 as facts.
+
+#[macro_use]
+mod call;
+mod hit;
+mod launch;
+mod params;
+mod payload;
+mod ray;
+mod report;
+mod trace;
+mod transform;
+
+pub use params::{ParamsBase, load_param};
+
+use core::arch::asm;
+
+/// Ends the program.
+#[inline(always)]
+pub fn trap() -> ! {
+    // SAFETY: `trap` ends the launch.
+    unsafe { asm!("trap; exit;", options(noreturn, nomem)) }
+}
+
+/// The running program: no state, the intrinsics know.
+#[derive(Clone, Copy)]
+pub struct Cx(());
+
+impl Cx {
+    /// The context of an entry point.
+    ///
+    /// # Safety
+    /// Called in an OptiX program of the kind whose context is made from it.
+    #[inline(always)]
+    pub unsafe fn new() -> Self {
+        Self(())
+    }
+}
