@@ -113,7 +113,9 @@ impl Shaders {
 
     /// What `rustc` is given for each crate of the device build.
     pub(crate) fn rustflags(&self, sysroot: &Path) -> Vec<String> {
-        let mut llvm = format!("-nvptx-fma-level={}", if self.contract { 2 } else { 0 });
+        // OptiX inlines every function anyway; called ones would only pass values through memory until then.
+        let mut llvm = String::from("-inline-threshold=100000");
+        llvm.push_str(&format!(" -nvptx-fma-level={}", if self.contract { 2 } else { 0 }));
         if self.approximate {
             llvm.push_str(" -nvptx-prec-divf32=1 -nvptx-prec-sqrtf32=0");
         }

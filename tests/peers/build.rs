@@ -1,0 +1,5 @@
+//! Compiles the peers' shader crate to PTX.
+
+fn main() {
+    optix_toolchain::shaders("shaders");
+}

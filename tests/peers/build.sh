@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Compiles the loads' programs to PTX: a folder for each code generator.
+#
+#   NVCC=.../nvcc OPTIX_INCLUDE=.../include tests/peers/build.sh OUT
+#
+# OPTIX_INCLUDE has the headers of OptiX 9.0 (github.com/NVIDIA/optix-dev).
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+out=${1:?where the PTX goes}
+
+mkdir -p "$out"/nvcc "$out"/nvcc-exact
+for source in "$here"/cuda/*.cu; do
+    name=$(basename "$source" .cu)
+    # Relocatable, or nvcc would check that OptiX's functions are defined.
+    compile=("${NVCC:-nvcc}" -ptx -rdc=true -arch="${CUDA_ARCH:-compute_75}" -I "${OPTIX_INCLUDE:?OptiX headers}" "$source")
+    "${compile[@]}" -o "$out/nvcc/$name.ptx"
+    "${compile[@]}" -fmad=false -o "$out/nvcc-exact/$name.ptx"
+done
