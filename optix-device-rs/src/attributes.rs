@@ -1,6 +1,6 @@
 //! What a hit carries from intersection to closest-hit and any-hit programs (guide 13.4).
 
-use crate::words::{WordBuffer, Words};
+use crate::words::Words;
 
 /// The attributes of a kind of hit: what `report` takes and what closest-hit and any-hit programs of that geometry read.
 ///
@@ -15,9 +15,12 @@ pub trait Attributes: Copy + 'static {
     /// Attribute words, 0 to 8.
     const WORDS: usize;
     /// Reads the attributes from their words.
-    fn load(words: &WordBuffer) -> Self;
+    ///
+    /// # Safety
+    /// [`Attributes::store`] of the same type wrote the words.
+    unsafe fn load(words: &[u32]) -> Self;
     /// Writes the attributes to their words.
-    fn store(self, words: &mut WordBuffer);
+    fn store(self, words: &mut [u32]);
 }
 
 /// A hit on a built-in triangle; its attributes are the barycentrics.
@@ -35,13 +38,14 @@ impl Attributes for Triangles {
     const NAME: &'static str = "Triangles";
     const WORDS: usize = 2;
     #[inline(always)]
-    fn load(words: &WordBuffer) -> Self {
-        Self { u: f32::load(words, 0), v: f32::load(words, 1) }
+    unsafe fn load(words: &[u32]) -> Self {
+        // SAFETY: two numbers were stored, or a backend wrote their bits.
+        let [u, v] = unsafe { Words::load(words) };
+        Self { u, v }
     }
     #[inline(always)]
-    fn store(self, words: &mut WordBuffer) {
-        self.u.store(words, 0);
-        self.v.store(words, 1);
+    fn store(self, words: &mut [u32]) {
+        [self.u, self.v].store(words);
     }
 }
 

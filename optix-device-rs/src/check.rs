@@ -350,7 +350,7 @@ pub const fn payload_words(name: &str, words: usize) {
             .number(words)
             .push(" words, but a ray has registers for ")
             .number(crate::words::MAX_PAYLOAD_WORDS)
-            .push(": take fields out, or keep them in a `SliceMut` of the launch parameters");
+            .push(": put `#[payload(transport = pointer)]` on the struct, to keep them in the caller's memory; or take fields out");
         panic!("{}", text.as_str());
     }
 }

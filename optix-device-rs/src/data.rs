@@ -2,11 +2,15 @@
 
 use crate::ray::Traversable;
 use crate::view::{Slice, SliceMut, SliceMut2d};
-use glam::{Affine3A, IVec2, IVec3, IVec4, Mat3, Mat4, Quat, UVec2, UVec3, UVec4, Vec2, Vec3, Vec3A, Vec4};
+use glam::{
+    Affine2, Affine3A, DAffine2, DAffine3, DMat2, DMat3, DMat4, DQuat, DVec2, DVec3, DVec4, I16Vec2, I16Vec3, I16Vec4,
+    IVec2, IVec3, IVec4, Mat2, Mat3, Mat3A, Mat4, Quat, U16Vec2, U16Vec3, U16Vec4, UVec2, UVec3, UVec4, Vec2, Vec3,
+    Vec3A, Vec4,
+};
 
 /// Plain data with one layout on host and device, which may cross by a copy of its bytes.
 ///
-/// Implemented for numbers, glam types, arrays, [`Slice`] and its kin, and by `#[derive(DeviceData)]` for `#[repr(C)]`
+/// Implemented for numbers, `bool`, `char`, glam types, arrays, [`Slice`] and its kin, and by `#[derive(DeviceData)]` for `#[repr(C)]`
 /// structs of these.
 ///
 /// # Safety
@@ -49,6 +53,14 @@ unsafe impl DeviceData for bool {
     }
 }
 
+// SAFETY: a Unicode scalar value here is one there.
+unsafe impl DeviceData for char {
+    #[inline]
+    fn write_to(&self, bytes: &mut [u8]) {
+        u32::from(*self).write_to(bytes);
+    }
+}
+
 // SAFETY: no bytes.
 unsafe impl DeviceData for () {
     fn write_to(&self, _: &mut [u8]) {}
@@ -66,7 +78,7 @@ unsafe impl<T: DeviceData, const N: usize> DeviceData for [T; N] {
 }
 
 macro_rules! glam_type {
-    ($($ty:ty: $size:literal, $align:literal, $to:ident;)*) => {$(
+    ($($ty:ty: $size:literal, $align:literal, $to:ident $(, $unit:literal)?;)*) => {$(
         // glam chooses alignment by target and feature; host and device are held to one choice here.
         const _: () = assert!(size_of::<$ty>() == $size && align_of::<$ty>() == $align);
         // SAFETY: size and alignment are asserted for each target; the components come first and in order.
@@ -76,6 +88,7 @@ macro_rules! glam_type {
                 let components = self.$to();
                 components.write_to(&mut bytes[..size_of_val(&components)]);
             }
+            $(const UNIT: usize = $unit;)?
         }
     )*};
 }
@@ -91,19 +104,46 @@ glam_type! {
     IVec2: 8, 8, to_array;
     IVec3: 12, 4, to_array;
     IVec4: 16, 16, to_array;
+    DVec2: 16, 16, to_array, 8;
+    DVec3: 24, 8, to_array, 8;
+    DVec4: 32, 16, to_array, 8;
+    U16Vec2: 4, 4, to_array;
+    U16Vec3: 6, 2, to_array;
+    U16Vec4: 8, 8, to_array;
+    I16Vec2: 4, 4, to_array;
+    I16Vec3: 6, 2, to_array;
+    I16Vec4: 8, 8, to_array;
     Quat: 16, 16, to_array;
+    DQuat: 32, 8, to_array, 8;
+    Mat2: 16, 16, to_cols_array;
     Mat3: 36, 4, to_cols_array;
     Mat4: 64, 16, to_cols_array;
+    DMat2: 32, 16, to_cols_array, 8;
+    DMat3: 72, 8, to_cols_array, 8;
+    DMat4: 128, 16, to_cols_array, 8;
+    DAffine2: 48, 16, to_cols_array, 8;
+    DAffine3: 96, 8, to_cols_array, 8;
 }
 
-const _: () = assert!(size_of::<Affine3A>() == 64 && align_of::<Affine3A>() == 16);
-// SAFETY: four columns of `Vec3A`, asserted above.
-unsafe impl DeviceData for Affine3A {
-    #[inline]
-    fn write_to(&self, bytes: &mut [u8]) {
-        let columns = [self.matrix3.x_axis, self.matrix3.y_axis, self.matrix3.z_axis, self.translation];
-        columns.write_to(bytes);
-    }
+macro_rules! glam_columns {
+    ($($ty:ty: $size:literal, $align:literal, |$value:ident| $columns:expr;)*) => {$(
+        const _: () = assert!(size_of::<$ty>() == $size && align_of::<$ty>() == $align);
+        // SAFETY: size and alignment are asserted for each target; the columns follow each other, each with its padding.
+        unsafe impl DeviceData for $ty {
+            #[inline]
+            fn write_to(&self, bytes: &mut [u8]) {
+                let $value = self;
+                let columns = $columns;
+                columns.write_to(&mut bytes[..size_of_val(&columns)]);
+            }
+        }
+    )*};
+}
+
+glam_columns! {
+    Mat3A: 48, 16, |m| [m.x_axis, m.y_axis, m.z_axis];
+    Affine2: 32, 16, |a| a.to_cols_array();
+    Affine3A: 64, 16, |a| [a.matrix3.x_axis, a.matrix3.y_axis, a.matrix3.z_axis, a.translation];
 }
 
 macro_rules! view {
@@ -151,6 +191,8 @@ pub trait Plain: DeviceData {
 macro_rules! plain {
     ($($ty:ty),*) => {$(impl Plain for $ty {})*};
 }
-plain!(u8, i8, u16, i16, u32, i32, u64, i64, f32, f64, bool, ());
-plain!(Vec2, Vec3, Vec3A, Vec4, UVec2, UVec3, UVec4, IVec2, IVec3, IVec4, Quat, Mat3, Mat4, Affine3A);
+plain!(u8, i8, u16, i16, u32, i32, u64, i64, f32, f64, bool, char, ());
+plain!(Vec2, Vec3, Vec3A, Vec4, DVec2, DVec3, DVec4, UVec2, UVec3, UVec4, IVec2, IVec3, IVec4);
+plain!(U16Vec2, U16Vec3, U16Vec4, I16Vec2, I16Vec3, I16Vec4, Quat, DQuat, Mat2, Mat3, Mat3A, Mat4, DMat2, DMat3, DMat4);
+plain!(Affine2, Affine3A, DAffine2, DAffine3);
 impl<T: Plain, const N: usize> Plain for [T; N] {}

@@ -1,5 +1,6 @@
 //! Rays and what they are traced against (guide 13.2).
 
+use crate::words::Words;
 use glam::Vec3;
 
 /// A traversable: what a ray is traced against (an acceleration structure of the scene).
@@ -28,13 +29,26 @@ impl Traversable {
     }
 }
 
+impl Words for Traversable {
+    const COUNT: usize = 2;
+    #[inline(always)]
+    fn store(self, words: &mut [u32]) {
+        self.0.store(words);
+    }
+    #[inline(always)]
+    unsafe fn load(words: &[u32]) -> Self {
+        // SAFETY: the words are of a traversable that was stored.
+        Self(unsafe { u64::load(words) })
+    }
+}
+
 /// A ray: origin and direction in world space, and the interval of `t` in which hits count, `origin + t * direction`.
 ///
 /// ```
 /// use optix_device_rs::prelude::*;
 /// let shadow = Ray::new(Vec3::ZERO, Vec3::Y)
 ///     .range(0.0, 0.999)
-///     .flags(RayFlags::NONE.terminate_on_first_hit().disable_closesthit());
+///     .flags(RayFlags::NONE.terminate_on_first_hit());
 /// assert_eq!(shadow.tmax, 0.999);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,6 +107,10 @@ impl Ray {
 }
 
 /// `OptixRayFlags` (guide 13.2). Each setter replaces its group, so that exclusive flags can't meet.
+///
+/// There is no setter for `OPTIX_RAY_FLAG_DISABLE_CLOSESTHIT`: it is what
+/// [`trace_without_closesthit`](crate::program::RayGen::trace_without_closesthit) is for, which is there for payloads that
+/// get along without a closest-hit program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
 pub struct RayFlags(u32);
@@ -137,10 +155,12 @@ impl RayFlags {
         Self(self.0 | Self::TERMINATE_ON_FIRST_HIT)
     }
 
-    /// No closest-hit program runs; the miss program still does.
+    /// With or without `OPTIX_RAY_FLAG_DISABLE_CLOSESTHIT`. Which of the two is said by which trace function is called, and
+    /// not by the ray: what the caller may read depends on it.
     #[inline(always)]
-    pub const fn disable_closesthit(self) -> Self {
-        Self(self.0 | Self::DISABLE_CLOSESTHIT)
+    pub(crate) const fn with_closesthit(self, runs: bool) -> Self {
+        let others = self.0 & !Self::DISABLE_CLOSESTHIT;
+        Self(if runs { others } else { others | Self::DISABLE_CLOSESTHIT })
     }
 
     /// Which any-hit programs run.
@@ -161,7 +181,7 @@ impl RayFlags {
         self.0
     }
 
-    /// Whether closest-hit programs are off.
+    /// Whether closest-hit programs are off for the ray: it is one of `trace_without_closesthit`.
     #[inline(always)]
     pub const fn closesthit_disabled(self) -> bool {
         self.0 & Self::DISABLE_CLOSESTHIT != 0

@@ -1,6 +1,6 @@
 //! Random numbers in registers.
 
-use crate::words::{WordBuffer, Words};
+use crate::words::Words;
 use glam::Vec2;
 
 /// PCG32 (O'Neill 2014, pcg-random.org): 64 bits of state, one stream for each `sequence`.
@@ -63,12 +63,13 @@ impl Pcg32 {
 impl Words for Pcg32 {
     const COUNT: usize = 4;
     #[inline(always)]
-    fn store(self, words: &mut WordBuffer, at: usize) {
-        [self.state, self.increment].store(words, at);
+    fn store(self, words: &mut [u32]) {
+        [self.state, self.increment].store(words);
     }
     #[inline(always)]
-    fn load(words: &WordBuffer, at: usize) -> Self {
-        let [state, increment] = Words::load(words, at);
+    unsafe fn load(words: &[u32]) -> Self {
+        // SAFETY: `store` wrote the array.
+        let [state, increment] = unsafe { Words::load(words) };
         Self { state, increment }
     }
 }

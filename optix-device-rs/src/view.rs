@@ -3,8 +3,12 @@
 //! An index out of range ends the program (a trap on the device, an error with the launch index on the CPU); no access
 //! is outside the buffer. Memory that programs write is shared by all launch indices: writes of one may be seen by
 //! another at any time until the launch ends (guide 6.2), but are never torn below 32 bits.
+//!
+//! Views come from the host, in parameters and records, and travel in payloads and attributes, whose words are loaded only
+//! where they were stored ([`Words::load`]).
 
 use crate::data::DeviceData;
+use crate::words::Words;
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 use core::sync::atomic::{AtomicU8, AtomicU32, Ordering::Relaxed};
@@ -39,7 +43,9 @@ macro_rules! element {
 }
 element!(u8, i8, u16, i16, u32, i32, u64, i64, f32, f64);
 element!(glam::Vec2, glam::Vec3, glam::Vec4, glam::UVec2, glam::UVec3, glam::UVec4);
-element!(glam::IVec2, glam::IVec3, glam::IVec4, glam::Quat, glam::Mat3, glam::Mat4);
+element!(glam::IVec2, glam::IVec3, glam::IVec4, glam::Quat, glam::Mat2, glam::Mat3, glam::Mat4);
+element!(glam::DVec2, glam::DVec3, glam::DVec4, glam::DQuat, glam::DMat2, glam::DMat3, glam::DMat4, glam::DAffine3);
+element!(glam::U16Vec2, glam::U16Vec3, glam::U16Vec4, glam::I16Vec2, glam::I16Vec3, glam::I16Vec4);
 // SAFETY: as its elements.
 unsafe impl<T: Element, const N: usize> Element for [T; N] {}
 
@@ -278,4 +284,29 @@ impl<T: Element> SliceMut2d<T> {
         // SAFETY: `at` is in range, and `from_raw` promised valid elements.
         unsafe { write(self.at(at), value) }
     }
+}
+
+macro_rules! view_words {
+    ($($name:ident, |[$($raw:ident),*]| $from:expr;)*) => {$(
+        impl<T: Element> Words for $name<T> {
+            const COUNT: usize = 4;
+            #[inline(always)]
+            fn store(self, words: &mut [u32]) {
+                self.to_raw().store(words);
+            }
+            #[inline(always)]
+            unsafe fn load(words: &[u32]) -> Self {
+                // SAFETY: the words are of a view that was stored, so what it promises holds for this one too.
+                unsafe {
+                    let [$($raw),*]: [u64; 2] = Words::load(words);
+                    $from
+                }
+            }
+        }
+    )*};
+}
+view_words! {
+    Slice, |[address, len]| Self::from_raw(address, len);
+    SliceMut, |[address, len]| Self::from_raw(address, len);
+    SliceMut2d, |[address, size]| Self::from_raw(address, size as u32, (size >> 32) as u32);
 }

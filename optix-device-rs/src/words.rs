@@ -1,13 +1,17 @@
 //! Values as 32-bit words, the way payload and attribute registers carry them (guide 13.3, 13.4).
 
-use glam::{IVec2, IVec3, IVec4, Mat3, Mat4, Quat, UVec2, UVec3, UVec4, Vec2, Vec3, Vec4};
+use glam::{
+    Affine2, Affine3A, DAffine2, DAffine3, DMat2, DMat3, DMat4, DQuat, DVec2, DVec3, DVec4, I16Vec2, I16Vec3, I16Vec4,
+    IVec2, IVec3, IVec4, Mat2, Mat3, Mat3A, Mat4, Quat, U16Vec2, U16Vec3, U16Vec4, UVec2, UVec3, UVec4, Vec2, Vec3,
+    Vec3A, Vec4,
+};
 
-/// The most words a payload has (guide 14).
+/// The most words a payload has in registers (guide 14).
 pub const MAX_PAYLOAD_WORDS: usize = 32;
 /// The most words an attribute set has (guide 13.4).
 pub const MAX_ATTRIBUTE_WORDS: usize = 8;
 
-/// Room for the words of one payload or attribute set.
+/// Room for the registers of one payload or attribute set.
 ///
 /// On the device this is never memory: every index is a constant after inlining, so it becomes registers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,31 +23,54 @@ impl WordBuffer {
     pub const ZERO: Self = Self([0; MAX_PAYLOAD_WORDS]);
 }
 
-/// A value that travels in payload or attribute registers as `COUNT` words of 32 bits, bit for bit.
+/// A value that travels in a payload or in attributes as `COUNT` words of 32 bits, bit for bit.
 ///
-/// Implemented for `f32`, `f64`, integers, `bool`, glam's `f32`, `u32` and `i32` vectors, `Quat`, `Mat3` and `Mat4`; for
-/// `Option` (a word more, 0 for `None`), pairs and arrays of these; and by `#[derive(Words)]` for structs of these. Smaller
-/// integers and `bool` take a whole word each.
+/// Implemented for `f32`, `f64`, integers up to 64 bits, `bool` and `char`; glam's vectors, quaternions, matrices and affine
+/// maps of `f32`, `f64` and 16- and 32-bit integers; raw pointers and the views of device memory
+/// ([`Slice`](crate::view::Slice) and its kin, [`Traversable`](crate::ray::Traversable)); `Option` (a word more, 0 for
+/// `None`), pairs and arrays of these; and by `#[derive(Words)]` for structs of these. Smaller integers, `bool` and `char`
+/// take a whole word each.
 ///
 /// ```
-/// use optix_device_rs::words::{WordBuffer, Words};
-/// let mut words = WordBuffer::ZERO;
-/// (1.5f32).store(&mut words, 3);
-/// assert_eq!(f32::load(&words, 3), 1.5);
-/// assert_eq!(<[f32; 4]>::COUNT, 4);
+/// use optix_device_rs::words::Words;
+/// let mut words = [0; 4];
+/// [1.5f32, 2.5].store(&mut words[1..3]);
+/// assert_eq!(words, [0, 1.5f32.to_bits(), 2.5f32.to_bits(), 0]);
+/// assert_eq!(<[f32; 2]>::COUNT, 2);
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` can't travel in payload or attribute registers",
+    message = "`{Self}` can't travel in a payload or in attributes",
     label = "has no encoding in 32-bit words",
-    note = "use f32, u32, i32, bool, a glam vector, an array of these, or `#[derive(Words)]` on your struct of these"
+    note = "use numbers, `bool`, a glam type, a view such as `Slice`, an `Option`, pair or array of these, or `#[derive(Words)]` on your struct of these"
 )]
 pub trait Words: Copy + 'static {
     /// How many 32-bit words the value takes.
     const COUNT: usize;
-    /// Writes the value's words at `at..at + COUNT`.
-    fn store(self, words: &mut WordBuffer, at: usize);
-    /// Reads the value back from `at..at + COUNT`.
-    fn load(words: &WordBuffer, at: usize) -> Self;
+    /// Writes the value to `words`, which are `COUNT` long.
+    fn store(self, words: &mut [u32]);
+    /// Reads the value back from `words`, which are `COUNT` long.
+    ///
+    /// # Safety
+    /// [`Words::store`] of the same type wrote the words: any others could forge a view of memory that is not there.
+    unsafe fn load(words: &[u32]) -> Self;
+}
+
+/// `words[at..end]`, inlined before any other optimisation: what is a register must not look like memory for long.
+#[doc(hidden)]
+#[inline(always)]
+pub const fn part(words: &[u32], at: usize, end: usize) -> &[u32] {
+    assert!(at <= end && end <= words.len());
+    // SAFETY: inside of the slice.
+    unsafe { core::slice::from_raw_parts(words.as_ptr().add(at), end - at) }
+}
+
+/// `&mut words[at..end]`, as [`part`].
+#[doc(hidden)]
+#[inline(always)]
+pub const fn part_mut(words: &mut [u32], at: usize, end: usize) -> &mut [u32] {
+    assert!(at <= end && end <= words.len());
+    // SAFETY: inside of the slice.
+    unsafe { core::slice::from_raw_parts_mut(words.as_mut_ptr().add(at), end - at) }
 }
 
 macro_rules! one_word {
@@ -51,13 +78,13 @@ macro_rules! one_word {
         impl Words for $ty {
             const COUNT: usize = 1;
             #[inline(always)]
-            fn store(self, words: &mut WordBuffer, at: usize) {
+            fn store(self, words: &mut [u32]) {
                 let $value = self;
-                words.0[at] = $to;
+                words[0] = $to;
             }
             #[inline(always)]
-            fn load(words: &WordBuffer, at: usize) -> Self {
-                let $word = words.0[at];
+            unsafe fn load(words: &[u32]) -> Self {
+                let $word = words[0];
                 $from
             }
         }
@@ -73,22 +100,24 @@ one_word! {
     u8: |v| u32::from(v), |w| w as u8;
     i16: |v| v as u32, |w| w as i16;
     i8: |v| v as u32, |w| w as i8;
+    // SAFETY: a `char` was stored.
+    char: |v| u32::from(v), |w| unsafe { char::from_u32_unchecked(w) };
 }
 
 macro_rules! two_words {
-    ($($ty:ty: |$value:ident| $to:expr, |$bits:ident| $from:expr;)*) => {$(
-        impl Words for $ty {
+    ($([$($generics:tt)*] $ty:ty: |$value:ident| $to:expr, |$bits:ident| $from:expr;)*) => {$(
+        impl<$($generics)*> Words for $ty {
             const COUNT: usize = 2;
             #[inline(always)]
-            fn store(self, words: &mut WordBuffer, at: usize) {
+            fn store(self, words: &mut [u32]) {
                 let $value = self;
                 let bits: u64 = $to;
-                words.0[at] = bits as u32;
-                words.0[at + 1] = (bits >> 32) as u32;
+                words[0] = bits as u32;
+                words[1] = (bits >> 32) as u32;
             }
             #[inline(always)]
-            fn load(words: &WordBuffer, at: usize) -> Self {
-                let $bits = u64::from(words.0[at]) | u64::from(words.0[at + 1]) << 32;
+            unsafe fn load(words: &[u32]) -> Self {
+                let $bits = u64::from(words[0]) | u64::from(words[1]) << 32;
                 $from
             }
         }
@@ -96,109 +125,134 @@ macro_rules! two_words {
 }
 
 two_words! {
-    u64: |v| v, |w| w;
-    i64: |v| v.cast_unsigned(), |w| w.cast_signed();
-    f64: |v| v.to_bits(), |w| f64::from_bits(w);
+    [] u64: |v| v, |w| w;
+    [] i64: |v| v.cast_unsigned(), |w| w.cast_signed();
+    [] f64: |v| v.to_bits(), |w| f64::from_bits(w);
+    [T: 'static] *const T: |v| v.expose_provenance() as u64, |w| core::ptr::with_exposed_provenance(w as usize);
+    [T: 'static] *mut T: |v| v.expose_provenance() as u64, |w| core::ptr::with_exposed_provenance_mut(w as usize);
 }
 
 impl Words for () {
     const COUNT: usize = 0;
     #[inline(always)]
-    fn store(self, _: &mut WordBuffer, _: usize) {}
+    fn store(self, _: &mut [u32]) {}
     #[inline(always)]
-    fn load(_: &WordBuffer, _: usize) -> Self {}
+    unsafe fn load(_: &[u32]) -> Self {}
 }
 
 impl<T: Words, const N: usize> Words for [T; N] {
     const COUNT: usize = T::COUNT * N;
     #[inline(always)]
-    fn store(self, words: &mut WordBuffer, at: usize) {
+    fn store(self, words: &mut [u32]) {
         for (i, value) in self.into_iter().enumerate() {
-            value.store(words, at + i * T::COUNT);
+            value.store(part_mut(words, i * T::COUNT, (i + 1) * T::COUNT));
         }
     }
     #[inline(always)]
-    fn load(words: &WordBuffer, at: usize) -> Self {
-        core::array::from_fn(|i| T::load(words, at + i * T::COUNT))
+    unsafe fn load(words: &[u32]) -> Self {
+        // SAFETY: the array's `store` wrote each element with its own.
+        core::array::from_fn(|i| unsafe { T::load(part(words, i * T::COUNT, (i + 1) * T::COUNT)) })
     }
-}
-
-macro_rules! as_array {
-    ($($ty:ty => [$of:ty; $n:literal], $to:ident, $from:ident;)*) => {$(
-        impl Words for $ty {
-            const COUNT: usize = $n;
-            #[inline(always)]
-            fn store(self, words: &mut WordBuffer, at: usize) {
-                <[$of; $n]>::store(self.$to(), words, at);
-            }
-            #[inline(always)]
-            fn load(words: &WordBuffer, at: usize) -> Self {
-                <$ty>::$from(<[$of; $n]>::load(words, at).into())
-            }
-        }
-    )*};
-}
-
-as_array! {
-    Vec2 => [f32; 2], to_array, from_array;
-    Vec3 => [f32; 3], to_array, from_array;
-    Vec4 => [f32; 4], to_array, from_array;
-    UVec2 => [u32; 2], to_array, from_array;
-    UVec3 => [u32; 3], to_array, from_array;
-    UVec4 => [u32; 4], to_array, from_array;
-    IVec2 => [i32; 2], to_array, from_array;
-    IVec3 => [i32; 3], to_array, from_array;
-    IVec4 => [i32; 4], to_array, from_array;
-    Quat => [f32; 4], to_array, from_array;
-}
-
-macro_rules! as_columns {
-    ($($ty:ty => $n:literal;)*) => {$(
-        impl Words for $ty {
-            const COUNT: usize = $n;
-            #[inline(always)]
-            fn store(self, words: &mut WordBuffer, at: usize) {
-                self.to_cols_array().store(words, at);
-            }
-            #[inline(always)]
-            fn load(words: &WordBuffer, at: usize) -> Self {
-                <$ty>::from_cols_array(&<[f32; $n]>::load(words, at))
-            }
-        }
-    )*};
-}
-
-as_columns! {
-    Mat3 => 9;
-    Mat4 => 16;
 }
 
 impl<T: Words> Words for Option<T> {
     const COUNT: usize = 1 + T::COUNT;
     #[inline(always)]
-    fn store(self, words: &mut WordBuffer, at: usize) {
-        self.is_some().store(words, at);
+    fn store(self, words: &mut [u32]) {
+        self.is_some().store(part_mut(words, 0, 1));
         if let Some(value) = self {
-            value.store(words, at + 1);
+            value.store(part_mut(words, 1, Self::COUNT));
         }
     }
     #[inline(always)]
-    fn load(words: &WordBuffer, at: usize) -> Self {
-        bool::load(words, at).then(|| T::load(words, at + 1))
+    unsafe fn load(words: &[u32]) -> Self {
+        // SAFETY: the first word says whether a value was stored behind it.
+        unsafe { bool::load(part(words, 0, 1)).then(|| T::load(part(words, 1, Self::COUNT))) }
     }
 }
 
 impl<A: Words, B: Words> Words for (A, B) {
     const COUNT: usize = A::COUNT + B::COUNT;
     #[inline(always)]
-    fn store(self, words: &mut WordBuffer, at: usize) {
-        self.0.store(words, at);
-        self.1.store(words, at + A::COUNT);
+    fn store(self, words: &mut [u32]) {
+        self.0.store(part_mut(words, 0, A::COUNT));
+        self.1.store(part_mut(words, A::COUNT, Self::COUNT));
     }
     #[inline(always)]
-    fn load(words: &WordBuffer, at: usize) -> Self {
-        (A::load(words, at), B::load(words, at + A::COUNT))
+    unsafe fn load(words: &[u32]) -> Self {
+        // SAFETY: the pair's `store` wrote each part with its own.
+        unsafe { (A::load(part(words, 0, A::COUNT)), B::load(part(words, A::COUNT, Self::COUNT))) }
     }
+}
+
+/// Types that go by way of an array.
+macro_rules! as_array {
+    ($($ty:ty => [$of:ty; $n:literal], $to:ident, |$array:ident| $from:expr;)*) => {$(
+        impl Words for $ty {
+            const COUNT: usize = <[$of; $n]>::COUNT;
+            #[inline(always)]
+            fn store(self, words: &mut [u32]) {
+                let array: [$of; $n] = self.$to();
+                array.store(words);
+            }
+            #[inline(always)]
+            unsafe fn load(words: &[u32]) -> Self {
+                // SAFETY: `store` wrote the array.
+                let $array = unsafe { <[$of; $n]>::load(words) };
+                $from
+            }
+        }
+    )*};
+}
+
+macro_rules! vectors {
+    ($($ty:ty => [$of:ty; $n:literal];)*) => {
+        as_array! { $($ty => [$of; $n], to_array, |array| <$ty>::from_array(array);)* }
+    };
+}
+
+vectors! {
+    Vec2 => [f32; 2];
+    Vec3 => [f32; 3];
+    Vec3A => [f32; 3];
+    Vec4 => [f32; 4];
+    Quat => [f32; 4];
+    DVec2 => [f64; 2];
+    DVec3 => [f64; 3];
+    DVec4 => [f64; 4];
+    DQuat => [f64; 4];
+    UVec2 => [u32; 2];
+    UVec3 => [u32; 3];
+    UVec4 => [u32; 4];
+    IVec2 => [i32; 2];
+    IVec3 => [i32; 3];
+    IVec4 => [i32; 4];
+    U16Vec2 => [u16; 2];
+    U16Vec3 => [u16; 3];
+    U16Vec4 => [u16; 4];
+    I16Vec2 => [i16; 2];
+    I16Vec3 => [i16; 3];
+    I16Vec4 => [i16; 4];
+}
+
+macro_rules! matrices {
+    ($($ty:ty => [$of:ty; $n:literal];)*) => {
+        as_array! { $($ty => [$of; $n], to_cols_array, |array| <$ty>::from_cols_array(&array);)* }
+    };
+}
+
+matrices! {
+    Mat2 => [f32; 4];
+    Mat3 => [f32; 9];
+    Mat3A => [f32; 9];
+    Mat4 => [f32; 16];
+    Affine2 => [f32; 6];
+    Affine3A => [f32; 12];
+    DMat2 => [f64; 4];
+    DMat3 => [f64; 9];
+    DMat4 => [f64; 16];
+    DAffine2 => [f64; 6];
+    DAffine3 => [f64; 12];
 }
 
 #[cfg(test)]
@@ -206,16 +260,16 @@ mod tests {
     use super::*;
     use core::fmt::Debug;
 
-    /// Stores and loads at every place that has room, between words that must not change.
+    /// Stores and loads between words that must not change.
     #[track_caller]
     fn round_trip<T: Words + PartialEq + Debug>(value: T) {
-        for at in 0..=MAX_PAYLOAD_WORDS - T::COUNT {
-            let mut words = WordBuffer([0xdead_beef; MAX_PAYLOAD_WORDS]);
-            value.store(&mut words, at);
-            assert_eq!(T::load(&words, at), value);
-            let around = words.0.iter().enumerate().filter(|(i, _)| *i < at || *i >= at + T::COUNT);
-            assert!(around.map(|(_, word)| *word).all(|word| word == 0xdead_beef), "{value:?} at {at}");
-        }
+        let mut words = [0xdead_beef; 40];
+        let place = 4..4 + T::COUNT;
+        value.store(&mut words[place.clone()]);
+        // SAFETY: stored in the line above.
+        assert_eq!(unsafe { T::load(&words[place.clone()]) }, value);
+        words[place].fill(0xdead_beef);
+        assert_eq!(words, [0xdead_beef; 40], "{value:?} leaves its words");
     }
 
     #[test]
@@ -237,6 +291,12 @@ mod tests {
             round_trip((Vec2::splat(f), Vec4::splat(-f)));
             round_trip((UVec3::new(a, b, 7), IVec4::splat(a.cast_signed())));
             round_trip(Quat::from_xyzw(f, 1.0, 2.0, -f));
+            round_trip(char::from_u32(a % 0xd800));
+            round_trip((U16Vec3::splat(a as u16), I16Vec4::splat(b as i16)));
+            round_trip((DVec3::splat(f64::from(f)), DQuat::from_xyzw(1.0, f64::from(-f), 2.0, 3.0)));
+            round_trip((Vec3A::splat(f), core::ptr::without_provenance::<u64>(a as usize)));
+            round_trip(Affine3A::from_cols_array(&core::array::from_fn(|i| f + i as f32)));
+            round_trip(DMat4::from_cols_array(&core::array::from_fn(|i| f64::from(f) * i as f64)));
             round_trip(Mat3::from_cols_array(&core::array::from_fn(|i| f * i as f32)));
             round_trip(Mat4::from_cols_array(&core::array::from_fn(|i| f - i as f32)));
             round_trip(Some((wide, f)));
@@ -248,9 +308,10 @@ mod tests {
     #[test]
     fn bits_survive_that_are_not_equal_to_themselves() {
         for bits in [0x7fc0_1234, 0xff80_0001, 0x8000_0000, 1] {
-            let mut words = WordBuffer::ZERO;
-            f32::from_bits(bits).store(&mut words, 0);
-            assert_eq!(f32::load(&words, 0).to_bits(), bits);
+            let mut words = [0];
+            f32::from_bits(bits).store(&mut words);
+            // SAFETY: stored in the line above.
+            assert_eq!(unsafe { f32::load(&words) }.to_bits(), bits);
         }
     }
 }

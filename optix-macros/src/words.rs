@@ -32,9 +32,9 @@ fn places(model: &Struct) -> Places {
         let count = quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT);
         consts.extend(quote!(const #next: ::core::primitive::usize = #at + #count;));
         let store = quote_spanned!(span=> <#ty as #krate::words::Words>::store);
-        stores.push(quote!(#store(self.#member, __words, __at + #at);));
+        stores.push(quote!(#store(self.#member, #krate::words::part_mut(__words, #at, #next));));
         let load = quote_spanned!(span=> <#ty as #krate::words::Words>::load);
-        loads.push(quote!(#load(__words, __at + #at)));
+        loads.push(quote!(unsafe { #load(#krate::words::part(__words, #at, #next)) }));
     }
     let end = format_ident!("__AT_{}", model.fields.len());
     let end = if model.fields.is_empty() { quote!(0) } else { quote!(#end) };
@@ -62,11 +62,12 @@ pub fn derive_words(input: &DeriveInput) -> TokenStream {
             impl #krate::words::Words for #ident {
                 const COUNT: ::core::primitive::usize = __END;
                 #[inline(always)]
-                fn store(self, __words: &mut #krate::words::WordBuffer, __at: ::core::primitive::usize) {
+                fn store(self, __words: &mut [::core::primitive::u32]) {
                     #(#stores)*
                 }
                 #[inline(always)]
-                fn load(__words: &#krate::words::WordBuffer, __at: ::core::primitive::usize) -> Self {
+                unsafe fn load(__words: &[::core::primitive::u32]) -> Self {
+                    // SAFETY: `store` stores each field in the words that it is loaded from.
                     #load
                 }
             }
@@ -99,13 +100,12 @@ pub fn derive_attributes(input: &DeriveInput) -> TokenStream {
                 const NAME: &'static ::core::primitive::str = #name;
                 const WORDS: ::core::primitive::usize = __END;
                 #[inline(always)]
-                fn load(__words: &#krate::words::WordBuffer) -> Self {
-                    let __at = 0;
+                unsafe fn load(__words: &[::core::primitive::u32]) -> Self {
+                    // SAFETY: `store` stores each field in the words that it is loaded from.
                     #load
                 }
                 #[inline(always)]
-                fn store(self, __words: &mut #krate::words::WordBuffer) {
-                    let __at = 0;
+                fn store(self, __words: &mut [::core::primitive::u32]) {
                     #(#stores)*
                 }
             }

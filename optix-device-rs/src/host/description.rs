@@ -43,20 +43,30 @@ impl RecordLayout {
     }
 }
 
-/// A payload's words and their semantics.
+/// A payload's fields, its registers and their semantics.
 #[derive(Clone, Copy, Debug)]
 pub struct PayloadDescription {
     /// The type's name.
     pub name: &'static str,
-    /// `OptixPayloadSemantics` bits per word; its length is the word count.
+    /// `OptixPayloadSemantics` bits per register; its length is the register count.
     pub semantics: &'static [u32],
+    /// The fields and their words: registers, or words in memory.
+    pub fields: &'static [crate::payload::Field],
+    /// The words in memory of the caller, whose address the registers hold; 0 where the registers hold the words.
+    pub memory_words: usize,
 }
 
 impl PayloadDescription {
     /// Of a payload type.
     pub const fn of<R: crate::payload::Payload>() -> Self {
-        assert!(R::WORDS == R::SEMANTICS.len());
-        Self { name: R::NAME, semantics: R::SEMANTICS }
+        let pointer = <R::Transport as crate::payload::Transport>::POINTER;
+        assert!(pointer || R::WORDS == R::SEMANTICS.len());
+        Self {
+            name: R::NAME,
+            semantics: R::SEMANTICS,
+            fields: R::FIELDS,
+            memory_words: if pointer { R::WORDS } else { 0 },
+        }
     }
 }
 

@@ -44,7 +44,7 @@ pub struct Frame<'a> {
     pub record: NonNull<u8>,
     /// The payload, shared by all programs of a trace call.
     pub payload: &'a Cell<WordBuffer>,
-    /// Who is told of the words that the program takes and gives; only an executor that checks wants to know.
+    /// Who is told of the fields that the program takes and gives; only an executor that checks wants to know.
     pub watch: Option<&'a dyn PayloadWatch>,
     /// The ray, in world space, as passed to trace; with the `tmax` that the program sees (guide 13.5).
     pub ray: Ray,
@@ -54,12 +54,13 @@ pub struct Frame<'a> {
     pub hit: HitState,
 }
 
-/// Is told of a program's payload accesses before they happen. Bit `i` of a mask is payload word `i`.
+/// Is told of a program's payload accesses before they happen. Fields are indices into
+/// [`Payload::FIELDS`](crate::payload::Payload::FIELDS).
 pub trait PayloadWatch {
-    /// The program takes these words.
-    fn takes(&self, mask: u32);
-    /// The program gives these words.
-    fn gives(&self, mask: u32);
+    /// The program takes these fields.
+    fn takes(&self, fields: &'static [usize]);
+    /// The program gives these fields.
+    fn gives(&self, fields: &'static [usize]);
 }
 
 /// What a program asks of the executor that runs it.

@@ -6,6 +6,7 @@ use crate::params::LaunchParams;
 use crate::words::{MAX_PAYLOAD_WORDS, WordBuffer};
 use core::cell::Cell;
 use core::marker::PhantomData;
+use core::mem::MaybeUninit;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec2, Vec3};
 
@@ -31,6 +32,19 @@ impl<P> Copy for ParamsBase<'_, P> {}
 pub unsafe fn load_param<P: LaunchParams, T: Copy, const OFFSET: usize>(base: ParamsBase<'_, P>) -> T {
     // SAFETY: the executor's parameters are a valid `P` (`Cx::new`), and the caller vouches for the field.
     unsafe { base.0.add(OFFSET).cast::<T>().read() }
+}
+
+/// Memory that nobody has written yet, filled with what is easily recognised.
+///
+/// # Safety
+/// Any bytes are a `T`.
+#[inline(always)]
+pub unsafe fn unwritten<T>(memory: &mut MaybeUninit<T>) -> &mut T {
+    // SAFETY: the bytes are `memory`'s, and the caller says that any are a `T`.
+    unsafe {
+        memory.as_mut_ptr().write_bytes(0xcd, 1);
+        memory.assume_init_mut()
+    }
 }
 
 /// The payload's words, each a cell of its own.
@@ -81,18 +95,24 @@ impl Cx {
     #[inline(always)]
     pub fn set_payload_type(&self, _: u32) {}
     #[inline(always)]
-    pub fn payload(&self, mask: u32) -> WordBuffer {
+    pub fn takes(&self, fields: &'static [usize]) {
         if let Some(watch) = self.frame().watch {
-            watch.takes(mask);
+            watch.takes(fields);
         }
+    }
+    #[inline(always)]
+    pub fn gives(&self, fields: &'static [usize]) {
+        if let Some(watch) = self.frame().watch {
+            watch.gives(fields);
+        }
+    }
+    #[inline(always)]
+    pub fn payload(&self, _mask: u32) -> WordBuffer {
         // The caller inlines this and uses the words of `mask` only, so no more are copied.
         self.frame().payload.get()
     }
     #[inline(always)]
     pub fn set_payload(&self, mask: u32, words: &WordBuffer) {
-        if let Some(watch) = self.frame().watch {
-            watch.gives(mask);
-        }
         // Word by word: the mask is a constant, and most payloads are much smaller than the buffer.
         let payload = each_word(self.frame().payload);
         for (i, (to, from)) in payload.iter().zip(&words.0).enumerate() {

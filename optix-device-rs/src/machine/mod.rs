@@ -5,25 +5,26 @@
 #[cfg(target_arch = "nvptx64")]
 mod ptx;
 #[cfg(target_arch = "nvptx64")]
-pub use ptx::{Cx, ParamsBase, load_param, trap};
+pub use ptx::{Cx, ParamsBase, load_param, trap, unwritten};
 
 #[cfg(not(target_arch = "nvptx64"))]
 mod host;
 #[cfg(not(target_arch = "nvptx64"))]
-pub use host::{Cx, ParamsBase, load_param};
+pub use host::{Cx, ParamsBase, load_param, unwritten};
 
 /// The arguments of a trace call but for the payload, all derived from the ray and the ray type.
 #[derive(Clone, Copy, Debug)]
 pub struct TraceCall {
     pub payload_type: u32,
+    /// Registers.
     pub payload_words: usize,
     pub traversable: u64,
     pub ray: crate::ray::Ray,
     pub sbt_offset: u32,
     pub sbt_stride: u32,
     pub miss_index: u32,
-    /// Payload words that the caller gives, and those that it takes back: bit `i` is word `i`. For the executor's checks;
-    /// the device has them in the payload type.
-    pub caller_writes: u32,
-    pub caller_reads: u32,
+    /// Fields of the payload that the caller gives, and those that it takes back. For the executor's checks; the device has
+    /// them in the payload type.
+    pub caller_writes: &'static [usize],
+    pub caller_reads: &'static [usize],
 }

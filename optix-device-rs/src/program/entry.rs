@@ -2,7 +2,7 @@
 //! machine, so that a program that does not fit is reported once and with its own message.
 
 use super::*;
-use crate::payload::Part;
+use crate::payload::{Part, Transport};
 use crate::pipeline::HasRay;
 
 /// What a ray-generation program gets.
@@ -50,15 +50,24 @@ hit_entries! {
 #[inline(always)]
 fn take<P: HasRay<R>, R: Payload, T: Part>(cx: &Cx) -> T {
     cx.set_payload_type(P::PAYLOAD_TYPE);
-    T::load(&cx.payload(T::MASK))
+    cx.takes(T::FIELDS);
+    // SAFETY: the entries above ask for the part of their kind, and `cx` is of a program of theirs; that its fields were
+    // stored was proved (`Payload`).
+    unsafe { if T::Transport::POINTER { T::load(T::Transport::memory(cx)) } else { T::load(&cx.payload(T::MASK).0) } }
 }
 
 /// Puts what the program returned into the payload.
 #[inline(always)]
 pub fn give<T: Part>(cx: &Cx, part: T) -> Decision {
-    let mut words = WordBuffer::ZERO;
-    part.store(&mut words);
-    cx.set_payload(T::MASK, &words);
+    cx.gives(T::FIELDS);
+    if T::Transport::POINTER {
+        // SAFETY: `pipeline!` gives what the program of `cx` returned, so it is that payload's.
+        unsafe { T::Transport::give(cx, &part) };
+    } else {
+        let mut registers = WordBuffer::ZERO;
+        part.store(&mut registers.0);
+        cx.set_payload(T::MASK, &registers);
+    }
     Decision::Accept
 }
 

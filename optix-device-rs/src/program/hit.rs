@@ -3,6 +3,7 @@
 use super::{AnyHit, Attributes, ClosestHit, Intersection};
 use crate::check::OnTriangles;
 use crate::spawn::SurfacePoint;
+use crate::words::part;
 use glam::{Mat3, Vec2, Vec3};
 
 /// An affine map: what takes points from one space to another.
@@ -131,7 +132,8 @@ macro_rules! hit_queries {
             /// What the intersection reported.
             #[inline(always)]
             pub fn attributes(&self) -> A {
-                A::load(&self.cx.attributes(A::WORDS))
+                // SAFETY: `pipeline!` made sure that the intersection programs of this hit group report an `A`.
+                unsafe { A::load(part(&self.cx.attributes(A::WORDS).0, 0, A::WORDS)) }
             }
             /// The kind that the intersection program reported, 0 to 127; 254 and 255 for triangles (guide 13.7).
             #[inline(always)]

@@ -16,7 +16,7 @@ use crate::payload::Payload;
 use crate::pipeline::Pipeline;
 use crate::ray::{Decision, RayFlags};
 use crate::record::SbtRecord;
-use crate::words::WordBuffer;
+use crate::words::{WordBuffer, part_mut};
 use core::marker::PhantomData;
 use glam::{UVec3, Vec3};
 
@@ -149,7 +149,7 @@ impl<P, A: Attributes> Intersection<P, A> {
     #[inline(always)]
     pub fn report(&self, t: f32, kind: u8, attributes: A) -> bool {
         let mut words = WordBuffer::ZERO;
-        attributes.store(&mut words);
+        attributes.store(part_mut(&mut words.0, 0, A::WORDS));
         self.cx.report(t, kind as u32, A::WORDS, &words)
     }
 }

@@ -1,10 +1,10 @@
 //! The parts of a payload and what ties them to it.
 
-use super::model::{Party, Payload};
+use super::model::{Party, Payload, Transport};
 use crate::data::{docs_or, touch};
 use crate::support::{allow, moved, place_of};
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote, quote_spanned};
+use quote::{ToTokens, format_ident, quote, quote_spanned};
 
 /// `RadianceAtMiss` and the like.
 struct Part {
@@ -46,7 +46,7 @@ pub fn emit(payload: &Payload) -> TokenStream {
         }
     });
 
-    let (mut places, mut semantics) = (TokenStream::new(), TokenStream::new());
+    let (mut places, mut fields, mut semantics) = (TokenStream::new(), Vec::new(), TokenStream::new());
     for (i, (field, access)) in shape.fields.iter().zip(&payload.access).enumerate() {
         let ty = &field.ty;
         let (at, count, next) =
@@ -58,13 +58,11 @@ pub fn emit(payload: &Payload) -> TokenStream {
             const #count: ::core::primitive::usize = #words;
             const #next: ::core::primitive::usize = #at + #count;
         });
+        let name = field.name();
+        fields.push(quote!(#krate::payload::Field { name: #name, at: #at, count: #count }));
         let bits = Party::ALL.into_iter().flat_map(|party| {
-            let bit = |word: &str| {
-                let name = format_ident!("{}_{}", party.keyword().to_uppercase(), word);
-                quote!(#krate::payload::semantics::#name)
-            };
-            let read = access.read.has(party).then(|| bit("READ"));
-            let write = access.write.has(party).then(|| bit("WRITE"));
+            let read = access.read.has(party).then(|| semantics_bit(&krate, party, "READ"));
+            let write = access.write.has(party).then(|| semantics_bit(&krate, party, "WRITE"));
             [read, write]
         });
         let bits = bits.flatten();
@@ -76,10 +74,43 @@ pub fn emit(payload: &Payload) -> TokenStream {
             }
         });
     }
+    let registers = match payload.transport {
+        Transport::Registers => quote!(__WORDS),
+        Transport::Pointer => quote!(2),
+    };
     let end = format_ident!("__AT_{}", shape.fields.len());
     let span = place_of(ident);
     let moved_krate = moved(krate, span);
-    let check = quote_spanned!(span=> const _: () = #moved_krate::check::payload_words(#name, __WORDS););
+    let check = match payload.transport {
+        Transport::Registers => {
+            quote_spanned!(span=> const _: () = #moved_krate::check::payload_words(#name, __WORDS);)
+        }
+        Transport::Pointer => TokenStream::new(),
+    };
+    let transport = transport(payload);
+    let semantics = match payload.transport {
+        Transport::Registers => quote!({
+            let mut __all = [0u32; __WORDS];
+            #semantics
+            __all
+        }),
+        Transport::Pointer => {
+            // The caller gives the address, and who has a part in the payload gets it.
+            let parties = parts.iter().filter(|part| part.party != Party::Caller && !part.fields.is_empty());
+            let bits = parties.map(|part| semantics_bit(krate, part.party, "READ"));
+            let caller = semantics_bit(krate, Party::Caller, "WRITE");
+            quote!([#caller #(| #bits)*; 2])
+        }
+    };
+    let without_closesthit =
+        payload.access.iter().all(|access| !access.read.has(Party::Caller) || access.write.has(Party::Caller));
+    let without_closesthit = without_closesthit.then(|| {
+        quote! {
+            // SAFETY: the caller writes all that it reads.
+            #[automatically_derived]
+            unsafe impl #krate::payload::TracedWithoutClosestHit for #ident {}
+        }
+    });
     let touch = touch(shape);
 
     quote! {
@@ -90,23 +121,44 @@ pub fn emit(payload: &Payload) -> TokenStream {
             const __AT_0: ::core::primitive::usize = 0;
             #places
             const __WORDS: ::core::primitive::usize = #end;
+            const __REGISTERS: ::core::primitive::usize = #registers;
             #check
 
-            // SAFETY: the words are counted above (32 at most, asserted), and each part has the fields its party may touch.
+            const __SEMANTICS: [::core::primitive::u32; __REGISTERS] = #semantics;
+
+            // SAFETY: the words are counted above (in registers 32 at most, asserted), each part has the fields its party may
+            // touch, and the macro proved that what is read was written.
             #[automatically_derived]
             unsafe impl #krate::payload::Payload for #ident {
                 const NAME: &'static ::core::primitive::str = #name;
                 const WORDS: ::core::primitive::usize = __WORDS;
-                const SEMANTICS: &'static [::core::primitive::u32] = &{
-                    let mut __all = [0u32; __WORDS];
-                    #semantics
-                    __all
-                };
+                const FIELDS: &'static [#krate::payload::Field] = &[#(#fields),*];
+                const SEMANTICS: &'static [::core::primitive::u32] = &__SEMANTICS;
+                const SEMANTICS_AT_TRAVERSE: &'static [::core::primitive::u32] =
+                    &#krate::payload::semantics::at_traverse(__SEMANTICS);
+                const SEMANTICS_AT_INVOKE: &'static [::core::primitive::u32] =
+                    &#krate::payload::semantics::at_invoke(__SEMANTICS);
+                type Transport = #transport;
                 #(#types)*
             }
+            #without_closesthit
             #(#impls)*
             #touch
         };
+    }
+}
+
+/// The constant of a party's bit.
+fn semantics_bit(krate: &impl ToTokens, party: Party, access: &str) -> TokenStream {
+    let name = format_ident!("{}_{}", party.keyword().to_uppercase(), access);
+    quote!(#krate::payload::semantics::#name)
+}
+
+fn transport(payload: &Payload) -> TokenStream {
+    let krate = &payload.shape.krate;
+    match payload.transport {
+        Transport::Registers => quote!(#krate::payload::Registers),
+        Transport::Pointer => quote!(#krate::payload::Pointer<__WORDS>),
     }
 }
 
@@ -139,22 +191,26 @@ fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
     let shape = &payload.shape;
     let (krate, payload_ident, ident) = (&shape.krate, &shape.ident, &part.ident);
     let passage = passage(payload, part);
-    let places = part.fields.iter().map(|i| (format_ident!("__AT_{i}"), format_ident!("__COUNT_{i}")));
-    let masks = places.clone().map(|(at, count)| quote!(#krate::payload::word_mask(#at, #count)));
+    let places = part.fields.iter().map(|i| (format_ident!("__AT_{i}"), format_ident!("__AT_{}", i + 1)));
+    let masks = part.fields.iter().map(|i| {
+        let (at, count) = (format_ident!("__AT_{i}"), format_ident!("__COUNT_{i}"));
+        quote!(#krate::payload::word_mask(#at, #count))
+    });
+    let (indices, transport) = (&part.fields, transport(payload));
     let fields: Vec<_> = part.fields.iter().map(|&i| &shape.fields[i]).collect();
-    let loads = fields.iter().zip(places.clone()).map(|(field, (at, _))| {
+    let loads = fields.iter().zip(places.clone()).map(|(field, (at, next))| {
         let (member, ty) = (&field.member, &field.ty);
         let span = place_of(ty);
         let krate = moved(krate, span);
         let load = quote_spanned!(span=> <#ty as #krate::words::Words>::load);
-        quote!(#member: #load(__words, #at))
+        quote!(#member: unsafe { #load(#krate::words::part(__words, #at, #next)) })
     });
-    let stores = fields.iter().zip(places).map(|(field, (at, _))| {
+    let stores = fields.iter().zip(places).map(|(field, (at, next))| {
         let (member, ty) = (&field.member, &field.ty);
         let span = place_of(ty);
         let krate = moved(krate, span);
         let store = quote_spanned!(span=> <#ty as #krate::words::Words>::store);
-        quote!(#store(self.#member, __words, #at);)
+        quote!(#store(self.#member, #krate::words::part_mut(__words, #at, #next));)
     });
     let text = part.ident.to_string();
     let shown = fields.iter().map(|field| {
@@ -175,13 +231,16 @@ fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
         // SAFETY: a field's words are counted by its type.
         #[automatically_derived]
         unsafe impl #krate::payload::Part for #ident {
+            type Transport = #transport;
+            const FIELDS: &'static [::core::primitive::usize] = &[#(#indices),*];
             const MASK: ::core::primitive::u32 = 0 #(| #masks)*;
             #[inline(always)]
-            fn load(__words: &#krate::words::WordBuffer) -> Self {
+            unsafe fn load(__words: &[::core::primitive::u32]) -> Self {
+                // SAFETY: the caller's, field by field.
                 Self { #(#loads),* }
             }
             #[inline(always)]
-            fn store(self, __words: &mut #krate::words::WordBuffer) {
+            fn store(self, __words: &mut [::core::primitive::u32]) {
                 #(#stores)*
             }
         }

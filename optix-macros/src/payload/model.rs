@@ -3,8 +3,8 @@
 use crate::shape::{Field, Struct};
 use crate::support::Errors;
 use proc_macro2::Span;
-use syn::Ident;
 use syn::punctuated::Punctuated;
+use syn::{Attribute, Ident};
 
 /// Who takes part in a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,15 +96,60 @@ pub struct Access {
     pub complete: bool,
 }
 
+/// How a payload gets from party to party.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Transport {
+    #[default]
+    Registers,
+    Pointer,
+}
+
+impl Transport {
+    /// Reads `#[payload(transport = ..)]` of a struct.
+    fn of(attributes: &[Attribute], errors: &mut Errors) -> Self {
+        let mut chosen = None;
+        for attribute in attributes.iter().filter(|a| a.path().is_ident("payload")) {
+            let result = attribute.parse_nested_meta(|meta| {
+                if !meta.path.is_ident("transport") {
+                    return Err(meta.error(
+                        "above a struct, `#[payload(..)]` says how the payload travels: `transport = registers` or `transport \
+                         = pointer`; who reads and writes is said above each field",
+                    ));
+                }
+                let value: Ident = meta.value()?.parse()?;
+                let transport = match value.to_string().as_str() {
+                    "registers" => Self::Registers,
+                    "pointer" => Self::Pointer,
+                    _ => {
+                        let message = format!(
+                            "a payload does not travel by `{value}`: write `registers`, for up to 32 words, or `pointer`, for \
+                             any number in the caller's memory"
+                        );
+                        return Err(syn::Error::new(value.span(), message));
+                    }
+                };
+                if chosen.replace(transport).is_some() {
+                    return Err(meta.error("`transport` is there twice: a payload travels in one way"));
+                }
+                Ok(())
+            });
+            errors.keep(result);
+        }
+        chosen.unwrap_or_default()
+    }
+}
+
 pub struct Payload {
     pub shape: Struct,
+    pub transport: Transport,
     pub access: Vec<Access>,
 }
 
 impl Payload {
     pub fn new(shape: Struct, errors: &mut Errors) -> Self {
         let access = shape.fields.iter().map(|field| Access::parse(field, errors)).collect();
-        Self { shape, access }
+        let transport = Transport::of(&shape.attrs, errors);
+        Self { shape, transport, access }
     }
 
     /// Indices of the fields in one party's part.
@@ -146,6 +191,8 @@ impl Access {
                 "read"
             } else if meta.path.is_ident("write") {
                 "write"
+            } else if meta.path.is_ident("transport") {
+                return Err(meta.error("all fields of a payload travel in one way: put `transport` above the struct"));
             } else {
                 return Err(meta.error("expected `write(..)` or `read(..)`, with the parties in the brackets"));
             };

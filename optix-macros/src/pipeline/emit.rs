@@ -168,7 +168,7 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
         let miss = option(miss);
         let moved_krate = moved(krate, place_of(payload));
         quote! {
-            #krate::host::RayDescription { payload: #krate::host::PayloadDescription { name: <#payload as #moved_krate::payload::Payload>::NAME, semantics: <#payload as #moved_krate::payload::Payload>::SEMANTICS }, miss: #miss }
+            #krate::host::RayDescription { payload: #moved_krate::host::PayloadDescription::of::<#payload>(), miss: #miss }
         }
     }).collect();
     impls.extend(has_rays(pipeline));

@@ -225,9 +225,10 @@ fn parts_cover_their_fields() {
     assert_eq!(FullFromCaller::MASK, u32::MAX);
     assert_eq!(<<Full as Payload>::AtMiss as Part>::MASK, 0);
     let mut words = WordBuffer([7; 32]);
-    RadianceFromClosestHit { light: Vec3::new(1.0, 2.0, 3.0), seed: 1 << 40 | 5 }.store(&mut words);
+    RadianceFromClosestHit { light: Vec3::new(1.0, 2.0, 3.0), seed: 1 << 40 | 5 }.store(&mut words.0);
     assert_eq!(words.0[..7], [0x3f80_0000, 0x4000_0000, 0x4040_0000, 5, 256, 7, 7]);
-    let at = RadianceAtClosestHit::load(&words);
+    // SAFETY: the field was stored with the other part.
+    let at = unsafe { RadianceAtClosestHit::load(&words.0) };
     assert_eq!(at.seed, 1 << 40 | 5);
 }
 
@@ -250,8 +251,10 @@ fn words_round_trip_bit_for_bit_and_touch_nothing_else() {
         );
         let at = i % (32 - Pair::COUNT);
         let mut words = WordBuffer([0xdead_beef; 32]);
-        value.store(&mut words, at);
-        let back = Pair::load(&words, at);
+        let place = at..at + Pair::COUNT;
+        value.store(&mut words.0[place.clone()]);
+        // SAFETY: stored in the line above.
+        let back = unsafe { Pair::load(&words.0[place]) };
         assert_eq!(back.0.to_bits(), value.0.to_bits());
         assert_eq!(back.1.bands.map(f32::to_bits), value.1.bands.map(f32::to_bits));
         assert_eq!((back.1.first, back.1.id, back.1.valid), (value.1.first, value.1.id, value.1.valid));
@@ -267,8 +270,9 @@ fn attributes_round_trip() {
         let f = (b >> 40) as f32;
         let hit = BallHit { normal: Vec3::new(f, -f, 0.5), uv: Vec2::splat(f), part: b as u8 };
         let mut words = WordBuffer::ZERO;
-        hit.store(&mut words);
-        assert_eq!(BallHit::load(&words), hit);
+        hit.store(&mut words.0);
+        // SAFETY: stored in the line above.
+        assert_eq!(unsafe { BallHit::load(&words.0) }, hit);
         assert!(words.0[6..].iter().all(|w| *w == 0));
     }
 }
@@ -462,24 +466,26 @@ fn entries_move_the_payload_in_and_out() {
         vertex: Vertex { position: Vec3::ZERO, weights: [0.0; 2], id: 0 },
     };
     let mut payload = WordBuffer([9; 32]);
-    RadianceFromCaller { seed: 41, r#mod: 5 }.store(&mut payload);
+    RadianceFromCaller { seed: 41, r#mod: 5 }.store(&mut payload.0);
+    // SAFETY: all of its fields are numbers, which any words are.
+    let at_caller = |words: &WordBuffer| unsafe { RadianceAtCaller::load(&words.0) };
 
     let radiance = description.hitgroups[0].rays[0];
     let (decision, out) = run(radiance.closesthit.unwrap(), &paint, payload);
-    let out_parts = RadianceAtCaller::load(&out);
+    let out_parts = at_caller(&out);
     assert_eq!((decision, out_parts.seed, out_parts.r#mod), (Decision::Accept, 42, 5));
     assert_eq!(out_parts.light, Vec3::new(2.0, 4.0, 6.0));
     assert!(out.0[6..].iter().all(|w| *w == 9));
 
     let (decision, out) = run(radiance.anyhit.unwrap(), &paint, payload);
-    assert_eq!((decision, RadianceAtCaller::load(&out).r#mod), (Decision::Ignore, 77));
+    assert_eq!((decision, at_caller(&out).r#mod), (Decision::Ignore, 77));
 
     let marker = description.hitgroups[2].rays[0];
     let (_, out) = run(marker.intersection.unwrap(), &paint, payload);
-    assert_eq!(RadianceAtCaller::load(&out).r#mod, 6);
+    assert_eq!(at_caller(&out).r#mod, 6);
 
     let (_, out) = run(description.rays[0].miss.unwrap().entry, &paint, payload);
-    assert_eq!(RadianceAtCaller::load(&out).light, Vec3::splat(5.0));
+    assert_eq!(at_caller(&out).light, Vec3::splat(5.0));
 
     let words = std::array::from_fn(|i| i as u32);
     let _ = run(description.hitgroups[0].rays[1].closesthit.unwrap(), &paint, WordBuffer(words));

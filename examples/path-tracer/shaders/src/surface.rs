@@ -104,9 +104,8 @@ fn direct(
     // The light's own point is as exact as its coordinates.
     let error = to.abs().max_element() * optix_device_rs::spawn::gamma(16);
     let end = SurfacePoint::new(to, area_normal / area, error);
-    let flags = RayFlags::NONE.terminate_on_first_hit().disable_closesthit();
-    let shadow = point.ray_to(&end).flags(flags);
-    let seen = hit.trace::<Shadow>(frame.world(), shadow, ShadowFromCaller { visible: false });
+    let shadow = point.ray_to(&end).flags(RayFlags::NONE.terminate_on_first_hit());
+    let seen = hit.trace_without_closesthit::<Shadow>(frame.world(), shadow, ShadowFromCaller { visible: false });
     if !seen.visible {
         return (Vec3::ZERO, 1);
     }

@@ -16,6 +16,7 @@ mod trace;
 mod transform;
 
 pub use params::{ParamsBase, load_param};
+pub use payload::unwritten;
 
 use core::arch::asm;
 

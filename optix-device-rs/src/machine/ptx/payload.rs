@@ -3,8 +3,30 @@
 use super::Cx;
 use crate::words::WordBuffer;
 use core::arch::asm;
+use core::mem::MaybeUninit;
+
+/// Memory that nobody has written yet.
+///
+/// # Safety
+/// Any bytes are a `T`.
+#[inline(always)]
+pub unsafe fn unwritten<T>(memory: &mut MaybeUninit<T>) -> &mut T {
+    // SAFETY: no instruction; but the compiler must take it that the block writes what it has the address of, and the caller
+    // says that any bytes are a `T`.
+    unsafe {
+        asm!("// {0}", in(reg64) memory.as_mut_ptr(), options(nostack, preserves_flags));
+        memory.assume_init_mut()
+    }
+}
 
 impl Cx {
+    /// For the executor's checks.
+    #[inline(always)]
+    pub fn takes(&self, _: &'static [usize]) {}
+    /// For the executor's checks.
+    #[inline(always)]
+    pub fn gives(&self, _: &'static [usize]) {}
+
     #[inline(always)]
     pub fn set_payload_type(&self, mask: u32) {
         // SAFETY: first call of a program that has a payload.

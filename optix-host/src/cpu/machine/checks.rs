@@ -3,8 +3,8 @@
 //! Each message names the rule and its item in the guide's checklist, such as `G010`.
 
 use super::{Job, trap};
-use core::cell::Cell;
-use optix_device_rs::host::{PayloadWatch, TraceCall};
+use core::cell::RefCell;
+use optix_device_rs::host::{PayloadDescription, PayloadWatch, TraceCall};
 
 /// Checks the arguments of a trace call; gives what is known of its payload.
 pub(super) fn trace(job: &Job<'_>, trace: &TraceCall) -> Watch {
@@ -36,7 +36,7 @@ pub(super) fn trace(job: &Job<'_>, trace: &TraceCall) -> Watch {
             ));
         }
     }
-    Watch { payload: job.ray(trace.miss_index).payload.name, written: Cell::new(trace.caller_writes) }
+    Watch::new(job.ray(trace.miss_index).payload, trace.caller_writes)
 }
 
 /// Checks a report.
@@ -51,41 +51,49 @@ pub(super) fn report(t: f32, kind: u8) {
 
 /// What is known of a trace call's payload.
 pub(super) struct Watch {
-    payload: &'static str,
-    /// Bit `i`: the caller or a program has written word `i`.
-    written: Cell<u32>,
+    payload: PayloadDescription,
+    /// Per field: whether the caller or a program has written it.
+    written: RefCell<Vec<bool>>,
 }
 
 impl Watch {
-    /// The trace call returns, and its caller takes these words.
-    pub fn returns(&self, caller_reads: u32) {
-        if let Some(word) = self.missing(caller_reads) {
+    fn new(payload: PayloadDescription, caller_writes: &'static [usize]) -> Self {
+        let watch = Self { payload, written: RefCell::new(vec![false; payload.fields.len()]) };
+        watch.gives(caller_writes);
+        watch
+    }
+
+    /// The trace call returns, and its caller takes these fields.
+    pub fn returns(&self, fields: &'static [usize]) {
+        if let Some(field) = self.unwritten(fields) {
             trap(format!(
-                "payload word {word} of `{}` comes back to the caller, which reads it, but neither the caller nor any \
-                 program of this trace wrote it (guide 14, H024)",
-                self.payload
+                "{field} comes back to the caller, which reads it, but neither the caller nor any program of this trace \
+                 wrote it (guide 14, H024)"
             ));
         }
     }
 
-    /// The first of these words that nobody has written.
-    fn missing(&self, mask: u32) -> Option<u32> {
-        let missing = mask & !self.written.get();
-        (missing != 0).then(|| missing.trailing_zeros())
+    /// The first of these fields that nobody has written, for messages.
+    fn unwritten(&self, fields: &[usize]) -> Option<String> {
+        let written = self.written.borrow();
+        let field = self.payload.fields[*fields.iter().find(|field| !written[**field])?];
+        let words = match field.count {
+            1 => format!("word {}", field.at),
+            count => format!("words {} to {}", field.at, field.at + count - 1),
+        };
+        Some(format!("payload field `{}::{}` ({words})", self.payload.name, field.name))
     }
 }
 
 impl PayloadWatch for Watch {
-    fn takes(&self, mask: u32) {
-        if let Some(word) = self.missing(mask) {
-            trap(format!(
-                "payload word {word} of `{}` is read, but neither the caller nor any program wrote it (guide 14, H024)",
-                self.payload
-            ));
+    fn takes(&self, fields: &'static [usize]) {
+        if let Some(field) = self.unwritten(fields) {
+            trap(format!("{field} is read, but neither the caller nor any program wrote it (guide 14, H024)"));
         }
     }
 
-    fn gives(&self, mask: u32) {
-        self.written.set(self.written.get() | mask);
+    fn gives(&self, fields: &'static [usize]) {
+        let mut written = self.written.borrow_mut();
+        fields.iter().for_each(|field| written[*field] = true);
     }
 }

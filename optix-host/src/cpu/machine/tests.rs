@@ -10,19 +10,20 @@ use optix_device_rs::host::{
     RayDescription, RecordLayout, TraceCall,
 };
 use optix_device_rs::machine::Cx;
+use optix_device_rs::payload::Field;
 use optix_device_rs::prelude::{AnyHitMode, Decision, Ray, RayFlags};
 use optix_device_rs::words::WordBuffer;
 
-/// What the programs do. Masks are of payload words.
+/// What the programs do. Fields are of the payload.
 #[derive(Clone, Copy)]
 struct Script {
     call: TraceCall,
     /// Trace calls that the closest-hit program makes, one in the other.
     nested: u32,
-    anyhit_gives: u32,
-    closesthit_takes: u32,
-    closesthit_gives: u32,
-    miss_gives: u32,
+    anyhit_gives: &'static [usize],
+    closesthit_takes: &'static [usize],
+    closesthit_gives: &'static [usize],
+    miss_gives: &'static [usize],
     report: (f32, u32),
 }
 
@@ -51,16 +52,16 @@ macro_rules! programs {
 }
 programs! {
     raygen: |cx| cx.trace(&script().call, WordBuffer::ZERO);
-    anyhit: |cx| cx.set_payload(script().anyhit_gives, &WordBuffer::ZERO);
+    anyhit: |cx| cx.gives(script().anyhit_gives);
     closesthit: |cx| {
-        cx.payload(script().closesthit_takes);
+        cx.takes(script().closesthit_takes);
         if let Some(nested) = script().nested.checked_sub(1) {
             SCRIPT.set(Some(Script { nested, ..script() }));
             cx.trace(&script().call, WordBuffer::ZERO);
         }
-        cx.set_payload(script().closesthit_gives, &WordBuffer::ZERO);
+        cx.gives(script().closesthit_gives);
     };
-    miss: |cx| cx.set_payload(script().miss_gives, &WordBuffer::ZERO);
+    miss: |cx| cx.gives(script().miss_gives);
     intersection: |cx| cx.report(script().report.0, script().report.1, 0, &WordBuffer::ZERO);
 }
 
@@ -68,6 +69,9 @@ const fn entry(name: &'static str, run: unsafe fn(&Frame<'_>) -> Decision) -> En
     Entry { name, function: name, run }
 }
 const RECORD: RecordLayout = RecordLayout { name: "()", size: 0, align: 1 };
+const fn word(name: &'static str, at: usize) -> Field {
+    Field { name, at, count: 1 }
+}
 const fn group(geometry: GeometryKind, rays: &'static [HitPrograms]) -> HitGroupDescription {
     HitGroupDescription { record: RECORD, geometry, attribute_words: 0, rays }
 }
@@ -81,7 +85,12 @@ static PIPELINE: PipelineDescription = PipelineDescription {
     params: ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[], fingerprint: 0 },
     raygen: &[ProgramDescription { entry: entry("__raygen__test", raygen), record: RECORD }],
     rays: &[RayDescription {
-        payload: PayloadDescription { name: "Radiance", semantics: &[0; 4] },
+        payload: PayloadDescription {
+            name: "Radiance",
+            semantics: &[0; 5],
+            fields: &[word("seed", 0), word("depth", 1), word("hits", 2), Field { name: "light", at: 3, count: 2 }],
+            memory_words: 0,
+        },
         miss: Some(ProgramDescription { entry: entry("__miss__test", miss), record: RECORD }),
     }],
     hitgroups: &[
@@ -94,21 +103,29 @@ static PIPELINE: PipelineDescription = PipelineDescription {
     trace_depth: None,
 };
 
-/// A ray down on a triangle, or on a box, and a call that breaks no rule: word 0 goes in and comes back.
+/// A ray down on a triangle, or on a box, and a call that breaks no rule: field 0 goes in and comes back.
 fn lawful(custom: bool) -> Script {
     let call = TraceCall {
         payload_type: 1,
-        payload_words: 4,
+        payload_words: 5,
         traversable: 0,
         ray: Ray::new(Vec3::new(0.25, 0.25, 2.0), Vec3::NEG_Z),
         sbt_offset: u32::from(custom),
         sbt_stride: 1,
         miss_index: 0,
-        caller_writes: 1,
-        caller_reads: 1,
+        caller_writes: &[0],
+        caller_reads: &[0],
     };
     let report = (1.5, 127);
-    Script { call, nested: 0, anyhit_gives: 0, closesthit_takes: 1, closesthit_gives: 0, miss_gives: 0, report }
+    Script {
+        call,
+        nested: 0,
+        anyhit_gives: &[],
+        closesthit_takes: &[0],
+        closesthit_gives: &[],
+        miss_gives: &[],
+        report,
+    }
 }
 
 /// Runs launch index (3, 1, 0) of a launch by the script; the message if it is trapped.
@@ -193,28 +210,28 @@ fn reported_hits() {
 }
 
 #[test]
-fn payload_words_that_nobody_wrote() {
-    // The closest-hit program takes a word that only any-hit gives, and any-hit is off.
+fn payload_fields_that_nobody_wrote() {
+    // The closest-hit program takes a field that only any-hit gives, and any-hit is off.
     let change = |s: &mut Script| {
-        s.anyhit_gives = 4;
-        s.closesthit_takes = 4;
+        s.anyhit_gives = &[2];
+        s.closesthit_takes = &[0, 2];
         s.call.ray.flags = RayFlags::NONE.any_hit(AnyHitMode::Disable);
     };
-    traps(false, change, "__closesthit__test", &["payload word 2 of `Radiance` is read", "H024"]);
+    traps(false, change, "__closesthit__test", &["payload field `Radiance::hits` (word 2) is read", "H024"]);
     // With any-hit it is lawful.
     let mut given = lawful(false);
-    (given.anyhit_gives, given.closesthit_takes) = (4, 4);
+    (given.anyhit_gives, given.closesthit_takes) = (&[2], &[2]);
     assert_eq!(run(false, true, given), None);
 }
 
 #[test]
-fn payload_words_that_come_back_unwritten() {
-    // Closest-hit and miss give the word, and the ray runs neither.
+fn payload_fields_that_come_back_unwritten() {
+    // Closest-hit and miss give the field, and the ray runs neither.
     let change = |s: &mut Script| {
-        (s.closesthit_gives, s.miss_gives, s.call.caller_reads) = (8, 8, 8);
-        s.call.ray.flags = RayFlags::NONE.disable_closesthit();
+        (s.closesthit_gives, s.miss_gives, s.call.caller_reads) = (&[3], &[3], &[3]);
+        s.call.ray.flags = RayFlags::from_bits(8);
     };
-    traps(false, change, "__raygen__test", &["payload word 3 of `Radiance`", "comes back", "H024"]);
+    traps(false, change, "__raygen__test", &["payload field `Radiance::light` (words 3 to 4)", "comes back", "H024"]);
     for towards in [Vec3::NEG_Z, Vec3::Z] {
         let mut given = lawful(false);
         change(&mut given);

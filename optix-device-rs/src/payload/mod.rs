@@ -4,13 +4,20 @@
 //! struct it must return: `RadianceFromCaller`, `RadianceAtClosestHit`, `RadianceFromClosestHit`, `RadianceAtMiss`,
 //! `RadianceFromMiss`, `RadianceAtAnyHit`, `RadianceFromAnyHit`, `RadianceAtIntersection`, `RadianceFromIntersection` and
 //! `RadianceAtCaller`, which `trace` returns. A party with no field has `()` in place of the struct.
+//!
+//! A payload travels in [`Registers`], or with `#[payload(transport = pointer)]` in memory of the caller, by [`Pointer`].
 
-use crate::words::WordBuffer;
+pub mod semantics;
+mod transport;
+
+pub use transport::{Pointer, Registers, Transport};
 
 /// A payload type. Implemented by `#[derive(Payload)]` only.
 ///
 /// # Safety
-/// There are at most 32 words, one entry of `SEMANTICS` each, and a part touches only words that its party may.
+/// The fields' words follow each other and there are `WORDS` of them, 32 at most in registers. The semantics let each party
+/// do what its parts do. On every path of a ray a part's fields were stored before they are loaded, if every party stores the
+/// part that it returns.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a payload",
     label = "not a payload type",
@@ -19,10 +26,18 @@ use crate::words::WordBuffer;
 pub unsafe trait Payload: Sized + 'static {
     /// The name, for messages.
     const NAME: &'static str;
-    /// Words in registers, 0 to 32.
+    /// Words of all fields: at most 32 in [`Registers`], any number by [`Pointer`].
     const WORDS: usize;
-    /// One word of `OptixPayloadSemantics` bits per payload word.
+    /// The fields, in the order of their words.
+    const FIELDS: &'static [Field];
+    /// One word of `OptixPayloadSemantics` bits per register.
     const SEMANTICS: &'static [u32];
+    /// The same at a call that only traverses; see [`semantics::at_traverse`].
+    const SEMANTICS_AT_TRAVERSE: &'static [u32];
+    /// The same at a call that runs the program of a traversed ray; see [`semantics::at_invoke`].
+    const SEMANTICS_AT_INVOKE: &'static [u32];
+    /// How it gets from party to party.
+    type Transport: Transport;
 
     /// What the caller must give to `trace`.
     type FromCaller: Part;
@@ -46,26 +61,46 @@ pub unsafe trait Payload: Sized + 'static {
     type FromMiss: Part;
 }
 
+/// A field of a payload.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// The name.
+    pub name: &'static str,
+    /// Its first word.
+    pub at: usize,
+    /// Words.
+    pub count: usize,
+}
+
 /// Some of the fields of a payload: those that one party reads or writes.
 ///
 /// # Safety
-/// `load` and `store` touch the words of `MASK` and no others.
+/// `load` and `store` touch the words of `FIELDS` and no others, and of those the first 32 are in `MASK`.
 pub unsafe trait Part: Copy {
+    /// How its payload travels.
+    type Transport: Transport;
+    /// The part's fields: indices into [`Payload::FIELDS`].
+    const FIELDS: &'static [usize];
     /// Bit `i` is set if the part holds payload word `i`.
     const MASK: u32;
     /// Takes the part's fields out of the payload's words.
-    fn load(words: &WordBuffer) -> Self;
+    ///
+    /// # Safety
+    /// Each field of the part was stored in these words.
+    unsafe fn load(words: &[u32]) -> Self;
     /// Puts the part's fields into the payload's words.
-    fn store(self, words: &mut WordBuffer);
+    fn store(self, words: &mut [u32]);
 }
 
 // SAFETY: no words.
 unsafe impl Part for () {
+    type Transport = Registers;
+    const FIELDS: &'static [usize] = &[];
     const MASK: u32 = 0;
     #[inline(always)]
-    fn load(_: &WordBuffer) {}
+    unsafe fn load(_: &[u32]) {}
     #[inline(always)]
-    fn store(self, _: &mut WordBuffer) {}
+    fn store(self, _: &mut [u32]) {}
 }
 
 /// Leads from a part, such as `RadianceAtMiss`, to its payload, `Radiance`.
@@ -82,32 +117,8 @@ pub trait PartOf: Part {
 /// The mask of `count` words that begin at word `at`. Used by the derive.
 #[doc(hidden)]
 pub const fn word_mask(at: usize, count: usize) -> u32 {
-    // A payload of more than 32 words is an error of its own; the mask must not be a second one.
+    // A payload of more than 32 words is an error of its own, or in memory, where it needs no mask.
     if count == 0 || at + count > 32 { 0 } else { (u32::MAX >> (32 - count as u32)) << at as u32 }
-}
-
-/// `OptixPayloadSemantics` bits: two per party, read is the low one (guide 14).
-pub mod semantics {
-    /// The caller of trace receives the value.
-    pub const CALLER_READ: u32 = 1;
-    /// The caller of trace supplies the value.
-    pub const CALLER_WRITE: u32 = 2;
-    /// Closest-hit programs may get the value.
-    pub const CLOSESTHIT_READ: u32 = 4;
-    /// Closest-hit programs set the value.
-    pub const CLOSESTHIT_WRITE: u32 = 8;
-    /// Miss programs may get the value.
-    pub const MISS_READ: u32 = 16;
-    /// Miss programs set the value.
-    pub const MISS_WRITE: u32 = 32;
-    /// Any-hit programs may get the value.
-    pub const ANYHIT_READ: u32 = 64;
-    /// Any-hit programs set the value.
-    pub const ANYHIT_WRITE: u32 = 128;
-    /// Intersection programs may get the value.
-    pub const INTERSECTION_READ: u32 = 256;
-    /// Intersection programs set the value.
-    pub const INTERSECTION_WRITE: u32 = 512;
 }
 
 /// A party that has nothing to write, so that a hit group or ray type may do without its program.
@@ -118,3 +129,14 @@ pub mod semantics {
 )]
 pub trait NothingToWrite {}
 impl NothingToWrite for () {}
+
+/// The caller reads only what it writes itself, so that the closest-hit program may be left out for a ray.
+///
+/// # Safety
+/// As the name says: otherwise words that nobody wrote are read.
+#[diagnostic::on_unimplemented(
+    message = "rays of payload `{Self}` need their closest-hit program",
+    label = "on a hit, the caller would read fields of `{Self}` that nobody wrote",
+    note = "let the caller give those fields a value, `write(caller, ..)`; or call `trace`, which runs the closest-hit program"
+)]
+pub unsafe trait TracedWithoutClosestHit: Payload {}
