@@ -239,6 +239,23 @@ not_allowed! { DecidesByCall: AnyHit<P, A>, Intersection<P, A>, ClosestHit<P, A>
     terminate_ray() -> ();
 } }
 
+/// A ray that says itself whether its closest-hit program runs, of which there is none.
+#[diagnostic::on_unimplemented(
+    message = "whether closest-hit programs run is not a flag of a ray",
+    label = "what the caller may read of the payload depends on it, so it is said by the call",
+    note = "trace the ray with `trace_without_closesthit`, for payloads whose caller reads only what it writes itself"
+)]
+pub trait ClosestHitByFlag {}
+impl RayFlags {
+    #[doc(hidden)]
+    pub fn disable_closesthit(self) -> Self
+    where
+        for<'never> Self: ClosestHitByFlag, // with a lifetime, since rustc rejects a plain bound that never holds
+    {
+        unreachable!()
+    }
+}
+
 /// A view that programs write through.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is read-only",

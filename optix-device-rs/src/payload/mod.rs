@@ -39,6 +39,10 @@ pub unsafe trait Payload: Sized + 'static {
     /// How it gets from party to party.
     type Transport: Transport;
 
+    /// All of this as a value, for the host.
+    #[cfg(not(target_arch = "nvptx64"))]
+    const DESCRIPTION: crate::host::PayloadDescription = crate::host::PayloadDescription::of::<Self>();
+
     /// What the caller must give to `trace`.
     type FromCaller: Part;
     /// What `trace` returns.

@@ -17,7 +17,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     };
     let payload = model::Payload::new(shape, &mut errors);
     check::check(&payload, &mut errors);
-    let items = emit::emit(&payload);
+    let items = emit::emit(&payload, errors.is_empty());
     let errors = errors.into_tokens();
     quote!(#errors #items)
 }

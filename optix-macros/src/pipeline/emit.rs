@@ -168,7 +168,7 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
         let miss = option(miss);
         let moved_krate = moved(krate, place_of(payload));
         quote! {
-            #krate::host::RayDescription { payload: #moved_krate::host::PayloadDescription::of::<#payload>(), miss: #miss }
+            #krate::host::RayDescription { payload: <#payload as #moved_krate::payload::Payload>::DESCRIPTION, miss: #miss }
         }
     }).collect();
     impls.extend(has_rays(pipeline));

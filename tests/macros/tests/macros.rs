@@ -232,6 +232,44 @@ fn parts_cover_their_fields() {
     assert_eq!(at.seed, 1 << 40 | 5);
 }
 
+/// The guide's two rules (8.4.2.1), and its silence about intersection programs, for each combination of a word's bits.
+#[test]
+fn semantics_widen_where_the_caller_comes_between() {
+    for word in 0..1 << 10 {
+        let read = word & (CLOSESTHIT_READ | MISS_READ) != 0;
+        let [at_traverse] = at_traverse([word]);
+        assert_eq!(at_traverse, if read { word | CALLER_READ } else { word });
+        let written = word & (ANYHIT_WRITE | INTERSECTION_WRITE) != 0;
+        let [at_invoke] = at_invoke([word]);
+        assert_eq!(at_invoke, if written { word | CALLER_WRITE } else { word });
+    }
+    let light = CLOSESTHIT_WRITE | MISS_WRITE | CALLER_READ;
+    assert_eq!(Radiance::SEMANTICS_AT_TRAVERSE[0], light);
+    assert_eq!(Radiance::SEMANTICS_AT_TRAVERSE[3], Radiance::SEMANTICS[3] | CALLER_READ);
+    assert_eq!(Radiance::SEMANTICS_AT_INVOKE[5], Radiance::SEMANTICS[5] | CALLER_WRITE);
+}
+
+/// Too many words for registers, of which the parties get the address.
+#[derive(Payload)]
+#[payload(transport = pointer)]
+pub struct Wide {
+    #[payload(write(caller, closesthit), read(closesthit, caller))]
+    pub matrices: [Mat4; 3],
+    #[payload(write(closesthit, miss), read(caller))]
+    pub frame: [f64; 4],
+    #[payload(write(caller), read(anyhit))]
+    pub seed: u32,
+}
+
+#[test]
+fn a_payload_in_memory_has_two_registers() {
+    assert_eq!((Wide::WORDS, Wide::SEMANTICS.len(), Wide::FIELDS[1].at), (57, 2, 48));
+    assert_eq!(Wide::SEMANTICS, [CALLER_WRITE | CLOSESTHIT_READ | MISS_READ | ANYHIT_READ; 2]);
+    let description = Wide::DESCRIPTION;
+    assert_eq!((description.memory_words, description.fields.len()), (57, 3));
+    assert_eq!(Radiance::DESCRIPTION.memory_words, 0);
+}
+
 /// A deterministic stream of bits, which also has the awkward values.
 fn bits() -> impl Iterator<Item = u64> {
     let mut rng = optix_device_rs::rng::Pcg32::new(3, 5);

@@ -1,4 +1,4 @@
-// H001, H004: an address has no encoding in words
+// H001, H004: a payload borrows nothing
 
 use optix_device_rs::prelude::*;
 
@@ -6,8 +6,6 @@ use optix_device_rs::prelude::*;
 pub struct Path {
     #[payload(write(caller), read(closesthit))]
     pub seed: &'static u32,
-    #[payload(write(caller), read(closesthit))]
-    pub raw: *const u32,
 }
 
 fn main() {}

@@ -67,6 +67,20 @@ mod caller_gives_too_little {
     }
 }
 
+mod caller_leaves_out_closesthit {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Shadow {
+        #[payload(write(caller, miss), read(caller))]
+        pub light: Vec3,
+    }
+
+    pub fn seen<P: HasRay<Shadow>>(rg: &RayGen<P>, world: Traversable, ray: Ray) -> Vec3 {
+        rg.trace_without_closesthit::<Shadow>(world, ray, ShadowFromCaller { light: Vec3::ZERO }).light
+    }
+}
+
 mod caller_names_no_ray {
     use optix_device_rs::prelude::*;
 

@@ -35,6 +35,21 @@ mod device_barycentrics_of_any_hit {
     }
 }
 
+mod device_flag_disables_closesthit {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Shadow {
+        #[payload(write(caller, miss), read(caller))]
+        pub visible: bool,
+    }
+
+    pub fn visible<P: HasRay<Shadow>>(rg: &RayGen<P>, world: Traversable, ray: Ray) -> bool {
+        let ray = ray.flags(RayFlags::NONE.terminate_on_first_hit());
+        rg.trace_without_closesthit::<Shadow>(world, ray, ShadowFromCaller { visible: false }).visible
+    }
+}
+
 mod device_cull_flags_together {
     use optix_device_rs::prelude::*;
 

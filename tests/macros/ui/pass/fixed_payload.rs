@@ -276,7 +276,61 @@ mod payload_reference {
         #[payload(write(caller), read(closesthit))]
         pub seed: u32,
         #[payload(write(caller), read(closesthit))]
-        pub raw: u64,
+        pub raw: *const u32,
+    }
+}
+
+mod payload_transport_unknown {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    #[payload(transport = pointer)]
+    pub struct Path {
+        #[payload(write(caller), read(closesthit))]
+        pub matrix: [f32; 40],
+    }
+}
+
+mod payload_transport_twice {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    #[payload(transport = registers)]
+    pub struct Path {
+        #[payload(write(caller), read(closesthit))]
+        pub seed: u32,
+    }
+}
+
+mod payload_transport_of_a_field {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    #[payload(transport = pointer)]
+    pub struct Path {
+        #[payload(write(caller), read(closesthit))]
+        pub matrix: [f32; 40],
+    }
+}
+
+mod payload_parties_of_the_struct {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Path {
+        #[payload(write(caller), read(closesthit))]
+        pub seed: u32,
+    }
+}
+
+mod payload_pointer_reads_unwritten {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    #[payload(transport = pointer)]
+    pub struct Path {
+        #[payload(write(closesthit, miss), read(caller))]
+        pub vertices: [Vec3; 20],
     }
 }
 
@@ -323,16 +377,6 @@ mod payload_unknown_party {
     pub struct Radiance {
         #[payload(write(caller, closesthit), read(caller))]
         pub light: Vec3,
-    }
-}
-
-mod payload_view {
-    use optix_device_rs::prelude::*;
-
-    #[derive(Payload)]
-    pub struct Path {
-        #[payload(write(caller), read(closesthit))]
-        pub next: u32,
     }
 }
 

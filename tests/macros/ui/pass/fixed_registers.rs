@@ -19,12 +19,13 @@ mod attributes_lifetime {
     }
 }
 
-mod attributes_pointer {
+mod attributes_reference {
     use optix_device_rs::prelude::*;
 
     #[derive(Clone, Copy, Attributes)]
     pub struct Found {
-        pub normal: Vec3,
+        pub normals: Slice<Vec3>,
+        pub first: *const Vec3,
     }
 }
 
@@ -35,6 +36,19 @@ mod attributes_too_many {
     pub struct BallHit {
         pub normal: Vec3,
         pub tangent: Vec3,
+    }
+}
+
+mod words_forge_a_view {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Words)]
+    pub struct Mesh {
+        pub normals: Slice<f32>,
+    }
+
+    pub fn found(mesh: Mesh) -> Slice<f32> {
+        mesh.normals
     }
 }
 

@@ -109,9 +109,9 @@ fn camera(rg: &RayGen<Field>) {
         let facing = hit.normal.dot(frame.sun());
         if facing > 0.0 {
             let position = ray.origin + ray.direction * hit.t;
-            let flags = RayFlags::NONE.terminate_on_first_hit().disable_closesthit();
+            let flags = RayFlags::NONE.terminate_on_first_hit();
             let shadow = Ray::new(position + hit.normal * 0.004, frame.sun()).flags(flags);
-            if rg.trace::<Sunlit>(frame.world(), shadow, SunlitFromCaller { seen: false }).seen {
+            if rg.trace_without_closesthit::<Sunlit>(frame.world(), shadow, SunlitFromCaller { seen: false }).seen {
                 light += facing;
             }
         }

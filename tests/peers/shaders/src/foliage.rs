@@ -73,9 +73,8 @@ fn camera(rg: &RayGen<Foliage>) {
     if hit.error >= 0.0 {
         let point = SurfacePoint::new(hit.position, hit.normal, hit.error);
         let sun = frame.sun();
-        let flags = RayFlags::NONE.disable_closesthit();
-        let ray = point.ray(sun).flags(flags);
-        let shadow = rg.trace::<Sun>(frame.world(), ray, SunFromCaller { light: 1.0, seen: false });
+        let ray = point.ray(sun);
+        let shadow = rg.trace_without_closesthit::<Sun>(frame.world(), ray, SunFromCaller { light: 1.0, seen: false });
         let direct = if shadow.seen { shadow.light * hit.normal.dot(sun).abs() } else { 0.0 };
         colour *= 0.25 + direct;
     }

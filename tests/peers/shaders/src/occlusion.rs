@@ -58,12 +58,12 @@ fn camera(rg: &RayGen<Occlusion>) {
         let point = SurfacePoint::new(hit.position, hit.normal, hit.error);
         let basis = Onb::around(hit.normal);
         let mut rng = Pcg32::hashed(px.y as u64 * size.x as u64 + px.x as u64, 0);
-        let flags = RayFlags::NONE.terminate_on_first_hit().disable_closesthit();
+        let flags = RayFlags::NONE.terminate_on_first_hit();
         let mut sample = 0;
         while sample < frame.samples() {
             let direction = basis.to_world(cosine(rng.next_vec2()));
             let ray = point.ray(direction).range(0.0, frame.radius()).flags(flags);
-            open += rg.trace::<Open>(frame.world(), ray, OpenFromCaller { open: false }).open as u32;
+            open += rg.trace_without_closesthit::<Open>(frame.world(), ray, OpenFromCaller { open: false }).open as u32;
             sample += 1;
         }
     }

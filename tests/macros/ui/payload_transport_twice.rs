@@ -1,11 +1,12 @@
-// H004, T05: a view does not travel in registers
+// H004: a payload travels in one way
 
 use optix_device_rs::prelude::*;
 
 #[derive(Payload)]
+#[payload(transport = registers, transport = pointer)]
 pub struct Path {
     #[payload(write(caller), read(closesthit))]
-    pub next: Traversable,
+    pub seed: u32,
 }
 
 fn main() {}
