@@ -111,11 +111,12 @@ impl Plan {
             );
         }
         for ray in description.rays {
-            note(
-                "payload words",
-                format!("{} of {}", ray.payload.semantics.len(), ray.payload.name),
-                "its fields; each word lives only between the programs that write and read it".into(),
-            );
+            let (words, memory_words) = (ray.payload.semantics.len(), ray.payload.memory_words);
+            let reason = match memory_words {
+                0 => "its fields; each word lives only between the programs that write and read it".into(),
+                _ => format!("the address of its {memory_words} words in the caller's memory, as its `transport` says"),
+            };
+            note("payload words", format!("{words} of {}", ray.payload.name), reason);
         }
 
         if let Some(text) = ptx {

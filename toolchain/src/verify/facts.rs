@@ -51,6 +51,8 @@ pub struct Ray {
     pub payload: String,
     /// `OptixPayloadSemantics` bits per payload word.
     pub semantics: Vec<u32>,
+    /// Words that who traces it keeps in local memory, where the payload travels by pointer.
+    pub memory_words: usize,
 }
 
 /// A device program in the place that it has in a pipeline.
@@ -160,7 +162,7 @@ fn field(json: &Json) -> Option<Field> {
 fn ray(json: &Json) -> Option<Ray> {
     let word = |json: &Json| json.number().and_then(|word| u32::try_from(word).ok());
     let semantics = json.get("semantics").items().iter().map(word).collect::<Option<_>>()?;
-    Some(Ray { payload: text(json, "payload")?, semantics })
+    Some(Ray { payload: text(json, "payload")?, semantics, memory_words: json.get("memory_words").number()? })
 }
 
 fn program(json: &Json) -> Option<Program> {

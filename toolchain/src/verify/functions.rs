@@ -3,6 +3,7 @@
 use super::code::{Code, demangled};
 use super::facts::Pipeline;
 use super::finding::{Finding, Rule};
+use super::trace;
 
 pub(super) fn check(code: &Code<'_>, pipelines: &[Pipeline], allowed: &[String], findings: &mut Vec<Finding>) {
     let item = |name: &str| {
@@ -17,8 +18,13 @@ pub(super) fn check(code: &Code<'_>, pipelines: &[Pipeline], allowed: &[String],
             None if function.body.is_entry => format!("entry `{name}`"),
             None => format!("function `{}`", demangled(name)),
         };
-        if let Some(bytes) = function.body.local_memory() {
-            findings.push(Finding::error(Rule::LocalMemory, place(), format!("keeps {bytes} bytes in local memory")));
+        let runs = |pipeline: &&Pipeline| pipeline.programs.iter().any(|program| program.entry == name);
+        let pipelines = pipelines.iter().filter(|pipeline| !function.body.is_entry || runs(pipeline));
+        let payloads = pipelines.map(|pipeline| trace::payload_memory(function, pipeline)).max().unwrap_or(0);
+        if let Some(bytes) = function.body.local_memory().filter(|bytes| *bytes > payloads) {
+            let payloads = if payloads > 0 { format!(", {payloads} of them for payloads") } else { String::new() };
+            let message = format!("keeps {bytes} bytes in local memory{payloads}");
+            findings.push(Finding::error(Rule::LocalMemory, place(), message));
         }
         if function.calls.iter().any(|call| call.function.starts_with('%')) {
             findings.push(Finding::error(Rule::Call, place(), "calls a function through a pointer"));

@@ -12,7 +12,7 @@
 //! | each program announces the payload type of its ray type | [`Rule::PayloadType`] |
 //! | each trace call has its ray type's payload, SBT offset, stride and miss index | [`Rule::Trace`] |
 //! | payload words are read and written only by programs that may | [`Rule::PayloadWord`] |
-//! | no local memory | [`Rule::LocalMemory`] |
+//! | no local memory but for payloads that travel by pointer | [`Rule::LocalMemory`] |
 //! | no function calls but those that the caller allows | [`Rule::Call`] |
 //! | nothing is missing that OptiX would have to find elsewhere | [`Rule::Module`] |
 //!

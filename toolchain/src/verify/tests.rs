@@ -29,8 +29,8 @@ fn demo() -> Pipeline {
         },
         rays: vec![
             // Word 0: write(closesthit, miss), read(caller). Word 1: write(caller, anyhit), read(closesthit, anyhit).
-            Ray { payload: "Radiance".into(), semantics: vec![8 | 32 | 1, 2 | 128 | 4 | 64] },
-            Ray { payload: "Shadow".into(), semantics: vec![2 | 32 | 1] },
+            Ray { payload: "Radiance".into(), semantics: vec![8 | 32 | 1, 2 | 128 | 4 | 64], memory_words: 0 },
+            Ray { payload: "Shadow".into(), semantics: vec![2 | 32 | 1], memory_words: 0 },
         ],
         programs: vec![
             program(Kind::RayGen, "camera", None, None),
@@ -213,6 +213,20 @@ fn memory_and_calls() {
     one(depot, ".local .align 4 .b8 __local_depot0[16];", &["error[local-memory]", "miss program `sky`", "16 bytes"]);
     one(depot, "call (%r1), %rd1, (), prototype_0;", &["error[call]", "miss program `sky`", "through a pointer"]);
     one("// end", ".extern .func missing\n();\n", &["error[module]", "missing"]);
+
+    // Ten words of a payload by pointer, of a ray that the program traces, are what the source asks for.
+    let mut pointer = demo();
+    pointer.rays[1].memory_words = 10;
+    let with = |bytes: usize| {
+        let head = ".visible .entry __raygen__Demo_camera_0123abcd()\n{\n";
+        assert!(PTX.contains(head));
+        PTX.replace(head, &format!("{head}\t.local .align 16 .b8 __local_depot0[{bytes}];\n"))
+    };
+    let helper = ["helper".to_string()];
+    assert_eq!(check(&with(48), &[pointer.clone()], &helper), []);
+    let found = check(&with(64), &[pointer], &helper);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].to_string().contains("64 bytes in local memory, 48 of them for payloads"), "{}", found[0]);
 
     let found = check(PTX, &[demo()], &[]);
     assert_eq!(found.len(), 1, "{found:?}");

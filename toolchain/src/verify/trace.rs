@@ -38,6 +38,13 @@ pub(super) fn check(
     }
 }
 
+/// Bytes of payloads that the function keeps in its local memory, for the rays that it traces with a pointer to theirs.
+pub(super) fn payload_memory(function: &Function<'_>, pipeline: &Pipeline) -> usize {
+    let calls = function.calls.iter().filter(|call| call.function == TRACE);
+    let rays = calls.filter_map(|call| pipeline.rays.get(call.values.get(TYPE).copied()??.trailing_zeros() as usize));
+    rays.map(|ray| (ray.memory_words * 4).next_multiple_of(16)).sum()
+}
+
 fn check_call(call: &Call<'_>, pipeline: &Pipeline, error: &mut impl FnMut(String)) {
     let Some(types) = call.values[TYPE] else {
         error("traces a ray whose payload type is not a constant".into());

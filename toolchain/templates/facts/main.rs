@@ -16,7 +16,11 @@ fn pipeline(pipeline: &PipelineDescription) -> String {
         )
     });
     let rays = list(pipeline.rays, |ray| {
-        format!(r#"{{"payload":{:?},"semantics":{:?}}}"#, ray.payload.name, ray.payload.semantics)
+        let payload = ray.payload;
+        format!(
+            r#"{{"payload":{:?},"semantics":{:?},"memory_words":{}}}"#,
+            payload.name, payload.semantics, payload.memory_words
+        )
     });
     format!(
         r#"{{"name":{:?},"params":{{"name":{:?},"symbol":{:?},"size":{},"align":{},"fields":{fields}}},"rays":{rays},"programs":{}}}"#,
