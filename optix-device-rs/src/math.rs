@@ -58,18 +58,19 @@ math! {
 /// ```
 #[inline(always)]
 pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
-    let quarters = Math::floor(turns * 4.0 + 0.5);
-    let r = turns * 4.0 - quarters; // -0.5 to 0.5, exact
+    // Adding 1.5 * 2^23 rounds to an integer and leaves it in the low bits.
+    const ROUND: f32 = 12_582_912.0;
+    let shifted = turns * 4.0 + ROUND;
+    let r = turns * 4.0 - (shifted - ROUND); // -0.5 to 0.5, exact
+    let quarters = shifted.to_bits();
     let z = r * r;
     let sin =
         r * (1.570_796_4 + z * (-0.645_964_1 + z * (0.079_692_58 + z * (-0.004_681_266_4 + z * 0.000_158_206_53))));
     let cos = 1.0 + z * (-1.233_700_5 + z * (0.253_669_23 + z * (-0.020_860_264 + z * 0.000_903_975_45)));
-    match quarters as i32 & 3 {
-        0 => (sin, cos),
-        1 => (cos, -sin),
-        2 => (-sin, -cos),
-        _ => (-cos, sin),
-    }
+    // By selects: a branch would part the threads of a warp.
+    let (sin, cos) = if quarters & 1 == 0 { (sin, cos) } else { (cos, sin) };
+    let sign = |bit: u32| (bit & 2) << 30;
+    (f32::from_bits(sin.to_bits() ^ sign(quarters)), f32::from_bits(cos.to_bits() ^ sign(quarters + 1)))
 }
 
 /// An orthonormal basis around a unit vector (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1)).

@@ -126,6 +126,8 @@ impl Shaders {
             "-Zcrate-attr=feature(abi_ptx,asm_experimental_arch)".into(),
             "-Aunused_features".into(),
             format!("-Ctarget-cpu={}", self.arch),
+            // An indirect branch costs a GPU more than a few comparisons.
+            "-Cjump-tables=no".into(),
             format!("-Cllvm-args={llvm}"),
         ]
     }

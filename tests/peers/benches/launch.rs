@@ -30,11 +30,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{}", device.description());
     let generators = generators(&folder)?;
     let size = UVec2::new(1920, 1080);
-    compare(&loads::path_tracer(&device, size, 16)?, &generators)?;
+    compare(&loads::path_tracer(&device, size, 4)?, &generators)?;
     compare(&loads::occlusion(&device, size, 64)?, &generators)?;
     compare(&loads::foliage(&device, size, 100)?, &generators)?;
     compare(&loads::field(&device, size)?, &generators)?;
-    compare(&loads::wide(&device, size, 16)?, &generators)?;
+    compare(&loads::wide(&device, size, 8)?, &generators)?;
     Ok(())
 }
 

@@ -70,17 +70,14 @@ struct Pcg32 {
 };
 
 DEVICE float2 sin_cos_turns(float turns) {
-    float quarters = floorf(turns * 4.0f + 0.5f);
-    float r = turns * 4.0f - quarters;
+    float shifted = turns * 4.0f + 12582912.0f;
+    float r = turns * 4.0f - (shifted - 12582912.0f);
+    u32 quarters = __float_as_uint(shifted);
     float z = r * r;
     float s = r * (1.5707964f + z * (-0.6459641f + z * (0.07969258f + z * (-0.0046812664f + z * 0.00015820653f))));
     float c = 1.0f + z * (-1.2337005f + z * (0.25366923f + z * (-0.020860264f + z * 0.00090397545f)));
-    switch ((int)quarters & 3) {
-    case 0: return make_float2(s, c);
-    case 1: return make_float2(c, -s);
-    case 2: return make_float2(-s, -c);
-    default: return make_float2(-c, s);
-    }
+    float sine = quarters & 1 ? c : s, cosine = quarters & 1 ? s : c;
+    return make_float2(quarters & 2 ? -sine : sine, (quarters + 1) & 2 ? -cosine : cosine);
 }
 
 // A direction around +z, by the cosine.

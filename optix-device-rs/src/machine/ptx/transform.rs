@@ -24,17 +24,6 @@ enum Direction {
     WorldToObject,
 }
 
-/// Three rows of four from memory that does not change during a launch.
-///
-/// # Safety
-/// `rows` is what a transform query returned: 48 bytes, aligned to 16, valid for the launch.
-#[inline(always)]
-unsafe fn rows(rows: u64) -> [[f32; 4]; 3] {
-    let at = rows as *const [f32; 4];
-    // SAFETY: the caller's.
-    unsafe { [at.read(), at.add(1).read(), at.add(2).read()] }
-}
-
 /// `a` after `b`, both affine.
 #[inline(always)]
 fn concatenate(a: [[f32; 4]; 3], b: [[f32; 4]; 3]) -> [[f32; 4]; 3] {
@@ -49,46 +38,80 @@ fn concatenate(a: [[f32; 4]; 3], b: [[f32; 4]; 3]) -> [[f32; 4]; 3] {
 /// The product of the transform list (guide 13.11). Instances are the only transforms of a static scene.
 #[inline(always)]
 fn transform(direction: Direction) -> [[f32; 4]; 3] {
-    let mut product = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
     let size = get_u32!("_optix_get_transform_list_size");
-    let mut i = 0;
+    if size == 0 {
+        return [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+    }
+    // Of most hits the list is one instance, whose matrix is the product.
+    let mut product = matrix(direction, 0);
+    let mut i = 1;
     while i < size {
-        let (handle, matrix): (u64, u64);
-        // SAFETY: `i` is inside the list; the result is the handle of an instance.
-        unsafe {
-            asm!(
-                "call ({h}), _optix_get_transform_list_handle, ({i});",
-                h = out(reg64) handle,
-                i = in(reg32) i,
-                options(pure, nomem, nostack, preserves_flags)
-            )
+        let next = matrix(direction, i);
+        // Index 0 is nearest the root, so its transform is applied last, and its inverse first.
+        product = match direction {
+            Direction::ObjectToWorld => concatenate(product, next),
+            Direction::WorldToObject => concatenate(next, product),
         };
-        if direction == Direction::ObjectToWorld {
-            // SAFETY: the handle of an instance.
-            unsafe {
-                asm!(
-                    "call ({m}), _optix_get_instance_transform_from_handle, ({h});",
-                    m = out(reg64) matrix,
-                    h = in(reg64) handle,
-                    options(pure, nomem, nostack, preserves_flags)
-                )
-            };
-            // SAFETY: from the query above. Index 0 is nearest the root, so its transform is applied last.
-            product = concatenate(product, unsafe { rows(matrix) });
-        } else {
-            // SAFETY: the handle of an instance.
-            unsafe {
-                asm!(
-                    "call ({m}), _optix_get_instance_inverse_transform_from_handle, ({h});",
-                    m = out(reg64) matrix,
-                    h = in(reg64) handle,
-                    options(pure, nomem, nostack, preserves_flags)
-                )
-            };
-            // SAFETY: from the query above. Index 0 is nearest the root, so its inverse is applied first.
-            product = concatenate(unsafe { rows(matrix) }, product);
-        }
         i += 1;
     }
     product
+}
+
+/// The matrix of the instance at `index` of the transform list, which is longer than that.
+#[inline(always)]
+fn matrix(direction: Direction, index: u32) -> [[f32; 4]; 3] {
+    let (handle, address): (u64, u64);
+    // SAFETY: `index` is inside the list; the result is the handle of an instance.
+    unsafe {
+        asm!(
+            "call ({h}), _optix_get_transform_list_handle, ({i});",
+            h = out(reg64) handle,
+            i = in(reg32) index,
+            options(pure, nomem, nostack, preserves_flags)
+        )
+    };
+    match direction {
+        // SAFETY: the handle of an instance.
+        Direction::ObjectToWorld => unsafe {
+            asm!(
+                "call ({m}), _optix_get_instance_transform_from_handle, ({h});",
+                m = out(reg64) address,
+                h = in(reg64) handle,
+                options(pure, nomem, nostack, preserves_flags)
+            )
+        },
+        // SAFETY: the handle of an instance.
+        Direction::WorldToObject => unsafe {
+            asm!(
+                "call ({m}), _optix_get_instance_inverse_transform_from_handle, ({h});",
+                m = out(reg64) address,
+                h = in(reg64) handle,
+                options(pure, nomem, nostack, preserves_flags)
+            )
+        },
+    }
+    // SAFETY: what the queries return is 48 bytes.
+    unsafe { [row(address), row(address + 16), row(address + 32)] }
+}
+
+/// A row of a matrix.
+///
+/// # Safety
+/// `address` is of 16 bytes of global memory, aligned to 16, which do not change during the launch.
+#[inline(always)]
+unsafe fn row(address: u64) -> [f32; 4] {
+    let (x, y, z, w): (u32, u32, u32, u32);
+    // SAFETY: the caller's. Nobody writes the memory, so the load may be moved or left out as a computation may.
+    unsafe {
+        asm!(
+            "{{ .reg .b64 g; cvta.to.global.u64 g, {a}; ld.global.v4.b32 {{{x}, {y}, {z}, {w}}}, [g]; }}",
+            x = out(reg32) x,
+            y = out(reg32) y,
+            z = out(reg32) z,
+            w = out(reg32) w,
+            a = in(reg64) address,
+            options(pure, nomem, nostack, preserves_flags)
+        )
+    };
+    [x, y, z, w].map(f32::from_bits)
 }
