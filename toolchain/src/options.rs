@@ -113,8 +113,10 @@ impl Shaders {
 
     /// What `rustc` is given for each crate of the device build.
     pub(crate) fn rustflags(&self, sysroot: &Path) -> Vec<String> {
-        // OptiX inlines every function anyway; called ones would only pass values through memory until then.
-        let mut llvm = String::from("-inline-threshold=100000");
+        // OptiX inlines every function anyway; called ones would only pass values through memory until then. Threads
+        // part at a branch, so conditions are joined where that costs a few instructions. Peeling a loop copies the trace
+        // calls in it, and each of those is a place where a program is cut in two.
+        let mut llvm = String::from("-inline-threshold=100000 -bonus-inst-threshold=10 -unroll-peel-max-count=0");
         llvm.push_str(&format!(" -nvptx-fma-level={}", if self.contract { 2 } else { 0 }));
         if self.approximate {
             llvm.push_str(" -nvptx-prec-divf32=1 -nvptx-prec-sqrtf32=0");

@@ -1,8 +1,8 @@
 //! Launch times of Rust device programs over those of the same programs in CUDA C++.
 //!
-//! `tests/peers/build.sh DIR` makes the PTX, then, where there is a GPU, `cargo bench -p optix-peers --bench launch -- DIR`.
-//! Pipelines of two generators launch in turns; printed are the medians, the median and range of the pairs' ratio, and
-//! how far the pictures are apart.
+//! `tests/peers/build.sh DIR` makes the PTX, then, where there is a GPU, `cargo bench -p optix-peers --bench launch -- DIR
+//! [LOAD]`. Pipelines of two generators launch in turns; printed are the medians, the median and range of the pairs' ratio,
+//! and how far the pictures are apart.
 
 use glam::UVec2;
 use optix_device_rs::pipeline::Pipeline;
@@ -11,15 +11,19 @@ use optix_peers::{Generator, Load, generators, loads};
 use std::error::Error;
 use std::path::PathBuf;
 
-/// Paired launches; the first few warm up.
-const PAIRS: usize = 20;
-const WARM_UP: usize = 3;
+/// How often both pipelines are built: the same PTX runs at rates some percent apart from one build to the next, by where
+/// its code and tables come to lie.
+const BUILDS: usize = 6;
+/// Paired launches with each build, after one that warms up.
+const PAIRS: usize = 6;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let Some(folder) = std::env::args().skip(1).find(|a| !a.starts_with('-')).map(PathBuf::from) else {
+    let mut arguments = std::env::args().skip(1).filter(|a| !a.starts_with('-'));
+    let Some(folder) = arguments.next().map(PathBuf::from) else {
         println!("launch: not run, name the folder that tests/peers/build.sh made");
         return Ok(());
     };
+    let only = arguments.next();
     let device = match Device::optix() {
         Ok(device) => device,
         Err(why) => {
@@ -28,13 +32,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     };
     println!("{}", device.description());
-    let generators = generators(&folder)?;
+    let all = generators(&folder)?;
+    let chosen = |name: &str| if only.as_deref().is_none_or(|only| only == name) { all.as_slice() } else { &[] };
     let size = UVec2::new(1920, 1080);
-    compare(&loads::path_tracer(&device, size, 4)?, &generators)?;
-    compare(&loads::occlusion(&device, size, 64)?, &generators)?;
-    compare(&loads::foliage(&device, size, 100)?, &generators)?;
-    compare(&loads::field(&device, size)?, &generators)?;
-    compare(&loads::wide(&device, size, 8)?, &generators)?;
+    compare(&loads::path_tracer(&device, size, 4)?, chosen("path_tracer"))?;
+    compare(&loads::occlusion(&device, size, 64)?, chosen("occlusion"))?;
+    compare(&loads::foliage(&device, size, 100)?, chosen("foliage"))?;
+    compare(&loads::field(&device, size)?, chosen("field"))?;
+    compare(&loads::wide(&device, size, 8)?, chosen("wide"))?;
     Ok(())
 }
 
@@ -44,26 +49,32 @@ fn compare<P: Pipeline>(load: &Load<P>, generators: &[Generator]) -> Result<(), 
     for generator in generators.iter().filter(|g| !g.name.starts_with("nvcc")) {
         let peer = if generator.name.ends_with("-exact") { "nvcc-exact" } else { "nvcc" };
         let Some(peer) = named(peer) else { continue };
-        let theirs = load.pipeline(&peer.ptx::<P>(load.name, load.shaders)?)?;
-        let ours = load.pipeline(&generator.ptx::<P>(load.name, load.shaders)?)?;
+        let ours = generator.ptx::<P>(load.name, load.shaders)?;
+        let theirs = peer.ptx::<P>(load.name, load.shaders)?;
         let (mut times, mut ratios) = (Vec::new(), Vec::new());
-        for pair in 0..WARM_UP + PAIRS {
-            // Either one goes first as often.
-            let (mine, other) = if pair % 2 == 0 {
-                let mine = ours.launch()?;
-                (mine, theirs.launch()?)
-            } else {
-                let other = theirs.launch()?;
-                (ours.launch()?, other)
-            };
-            if pair >= WARM_UP {
-                times.push((mine.as_secs_f64() * 1e3, other.as_secs_f64() * 1e3));
-                ratios.push(mine.as_secs_f64() / other.as_secs_f64());
+        let mut pictures = [Vec::new(), Vec::new()];
+        for build in 0..BUILDS {
+            // Either one is built first, and launched first, as often.
+            let swap = build % 2 == 1;
+            let [first, second] = if swap { [&theirs, &ours] } else { [&ours, &theirs] };
+            let both = [load.pipeline(first)?, load.pipeline(second)?];
+            let [mine, other] = if swap { [&both[1], &both[0]] } else { [&both[0], &both[1]] };
+            for (pipeline, picture) in [mine, other].into_iter().zip(&mut pictures) {
+                pipeline.launch()?;
+                *picture = load.picture()?;
+            }
+            for pair in 0..PAIRS {
+                let (a, b) = if pair % 2 == 0 {
+                    let a = mine.launch()?;
+                    (a, other.launch()?)
+                } else {
+                    let b = other.launch()?;
+                    (mine.launch()?, b)
+                };
+                times.push((a.as_secs_f64() * 1e3, b.as_secs_f64() * 1e3));
+                ratios.push(a.as_secs_f64() / b.as_secs_f64());
             }
         }
-        ours.launch()?;
-        let picture = load.picture()?;
-        theirs.launch()?;
         println!(
             "{:12} {:14} {:8.3} ms, {} {:8.3} ms: {:.4} [{:.4}, {:.4}]; {}",
             load.name,
@@ -74,7 +85,7 @@ fn compare<P: Pipeline>(load: &Load<P>, generators: &[Generator]) -> Result<(), 
             median(ratios.iter().copied()),
             ratios.iter().copied().fold(f64::INFINITY, f64::min),
             ratios.iter().copied().fold(0.0, f64::max),
-            Difference::of(&picture, &load.picture()?),
+            Difference::of(&pictures[0], &pictures[1]),
         );
     }
     Ok(())
