@@ -1,5 +1,6 @@
-//! Compiles the probe shaders to PTX, for the tests that run on a GPU as well.
+//! Compiles the tests' shaders to PTX, for those that run on a GPU as well.
 
 fn main() {
     optix_toolchain::shaders("shaders");
+    optix_toolchain::shaders("round-trip");
 }

@@ -235,6 +235,12 @@ impl<T> Clone for SliceMut2d<T> {
 }
 impl<T> Copy for SliceMut2d<T> {}
 
+impl<T> core::fmt::Debug for SliceMut2d<T> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "SliceMut2d({} x {} elements)", self.width, self.height)
+    }
+}
+
 // SAFETY: a view is an address; what it points to is read and written with atomics on the host.
 unsafe impl<T: Send> Send for SliceMut2d<T> {}
 // SAFETY: as above.
