@@ -123,34 +123,76 @@ macro_rules! not_allowed {
 /// The context of a program that may trace rays.
 #[diagnostic::on_unimplemented(
     message = "rays can't be traced from `{Self}`",
-    label = "only ray-generation, closest-hit and miss programs trace rays (guide 13)",
+    label = "only ray-generation, closest-hit and miss programs and continuation callables trace rays (guide 13)",
     note = "leave what is needed in the payload, and trace from the closest-hit program"
 )]
 pub trait MayTrace {}
 
+/// The context of a callable that may trace rays.
+#[diagnostic::on_unimplemented(
+    message = "a direct callable traces no rays, so there is no `trace` in `{Self}`",
+    label = "neither a direct callable nor what it calls may trace (guide 15.1)",
+    note = "make it a continuation callable: `#[continuation_callable]`, with `&ContinuationCallable<..>` as context and `Callable<F, Continuation>` as reference"
+)]
+pub trait IsContinuationCallable {}
+
 macro_rules! may_not_trace {
-    ($($context:ident)*) => {$(
-        impl<P, A> crate::program::$context<P, A> {
+    ($bound:ident: $($context:ident<P $(, $a:ident)?>),*) => {$(
+        impl<P $(, $a)?> crate::program::$context<P $(, $a)?> {
             #[doc(hidden)]
             pub fn trace<R: Payload>(&self, _: Traversable, _: Ray, _: R::FromCaller) -> R::AtCaller
             where
-                Self: MayTrace,
+                Self: $bound,
             {
                 unreachable!()
             }
         }
     )*};
 }
-may_not_trace!(AnyHit Intersection);
+may_not_trace!(MayTrace: AnyHit<P, A>, Intersection<P, A>, Exception<P>);
+may_not_trace!(IsContinuationCallable: DirectCallable<P>);
+
+/// The context of a program that may throw.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't throw: it runs because something was thrown",
+    label = "every kind of program but exception programs may throw (guide 13.14)",
+    note = "the launch index has ended already: write what is to be known to a `SliceMut` of the launch parameters"
+)]
+pub trait MayThrow {}
+impl<P> crate::program::Exception<P> {
+    #[doc(hidden)]
+    pub fn throw<E>(&self, _: E) -> !
+    where
+        Self: MayThrow,
+    {
+        unreachable!()
+    }
+}
+
+/// The context of a program that is told of an exception.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not told of exceptions",
+    label = "only the pipeline's exception program is told what was raised, and where (guide 13.14)",
+    note = "write a program with `#[exception]`, and name it in `pipeline!`: `exception: report`"
+)]
+pub trait HasException {}
+not_allowed! {
+    HasException: RayGen<P>, Intersection<P, A>, AnyHit<P, A>, ClosestHit<P, A>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>; {
+        raised() -> ();
+        exception_code() -> i32;
+        line_info() -> Option<&'static core::ffi::CStr>;
+    }
+}
 
 /// The context of a program that runs for a ray.
 #[diagnostic::on_unimplemented(
     message = "no ray is on its way in `{Self}`",
     label = "only intersection, any-hit, closest-hit and miss programs ask about their ray (guide 13.5)",
-    note = "a ray-generation program makes its rays itself: use the `Ray` that it passes to `trace`"
+    note = "a ray-generation program makes its rays itself: use the `Ray` that it passes to `trace`",
+    note = "a callable knows of a ray, a primitive or a hit only what its caller passes: give it an argument more"
 )]
 pub trait HasRay {}
-not_allowed! { HasRay: RayGen<P>; {
+not_allowed! { HasRay: RayGen<P>, DirectCallable<P>, ContinuationCallable<P>, Exception<P>; {
     world_ray_origin() -> Vec3;
     world_ray_direction() -> Vec3;
     ray_tmin() -> f32;
@@ -167,7 +209,7 @@ not_allowed! { HasRay: RayGen<P>; {
     note = "what the caller of `trace` needs to know about a hit, the closest-hit program returns in the payload"
 )]
 pub trait HasPrimitive {}
-not_allowed! { HasPrimitive: RayGen<P>, Miss<P>; {
+not_allowed! { HasPrimitive: RayGen<P>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>, Exception<P>; {
     primitive_index() -> u32;
     sbt_gas_index() -> u32;
     instance_id() -> Option<u32>;
@@ -183,7 +225,7 @@ not_allowed! { HasPrimitive: RayGen<P>, Miss<P>; {
     note = "in a closest-hit program map it: `hit.world_to_object().point(hit.world_ray_origin())`, `.vector(..)` for the direction"
 )]
 pub trait HasObjectRay {}
-not_allowed! { HasObjectRay: RayGen<P>, ClosestHit<P, A>, Miss<P>; {
+not_allowed! { HasObjectRay: RayGen<P>, ClosestHit<P, A>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>, Exception<P>; {
     object_ray_origin() -> Vec3;
     object_ray_direction() -> Vec3;
 } }
@@ -195,7 +237,7 @@ not_allowed! { HasObjectRay: RayGen<P>, ClosestHit<P, A>, Miss<P>; {
     note = "an intersection program says what a hit carries: `isect.report(t, kind, attributes)`; the caller of `trace` learns of a hit through the payload"
 )]
 pub trait HasHit {}
-not_allowed! { HasHit: RayGen<P>, Intersection<P, A>, Miss<P>; {
+not_allowed! { HasHit: RayGen<P>, Intersection<P, A>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>, Exception<P>; {
     attributes() -> ();
     hit_kind() -> u8;
     barycentrics() -> Vec2;
@@ -225,7 +267,7 @@ macro_rules! may_not_report {
         }
     )*};
 }
-may_not_report!(RayGen<P>, AnyHit<P, A>, ClosestHit<P, A>, Miss<P>);
+may_not_report!(RayGen<P>, AnyHit<P, A>, ClosestHit<P, A>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>, Exception<P>);
 
 /// The context of a program that ends by a call, of which there is none.
 #[diagnostic::on_unimplemented(
@@ -385,6 +427,52 @@ pub const fn attribute_words(name: &str, words: usize) {
             .push(": report less and compute the rest in the closest-hit program from the record");
         panic!("{}", text.as_str());
     }
+}
+
+/// A call passes and returns 32 words at most.
+pub const fn callable<F: crate::callable::Signature>(name: &str) {
+    let arguments = <F::Arguments as crate::words::Words>::COUNT;
+    let result = <F::Result as crate::words::Words>::COUNT;
+    let most = crate::words::MAX_PAYLOAD_WORDS;
+    if arguments > most || result > most {
+        let (what, words) = if arguments > most { ("arguments", arguments) } else { ("result", result) };
+        let text = EMPTY
+            .push("the ")
+            .push(what)
+            .push(" of callable `")
+            .push(name)
+            .push("` take ")
+            .number(words)
+            .push(" words, but a call has registers for ")
+            .number(most)
+            .push(": keep what does not change in its record, or the rest in a `SliceMut` of the launch parameters");
+        panic!("{}", text.as_str());
+    }
+}
+
+/// A user exception has a code of 30 bits and 8 words of details at most (guide 13.14).
+pub const fn exception(name: &str, variant: &str, code: i64, words: usize) {
+    let text = EMPTY.push("exception `").push(name).push("::").push(variant);
+    if code < 0 || code >= crate::exception::MAX_CODE as i64 {
+        let text = text.push(
+            "` has a code that is not within 0 to 2^30 - 1: the others are OptiX's own; give it another discriminant",
+        );
+        panic!("{}", text.as_str());
+    }
+    if words > crate::exception::MAX_DETAILS {
+        let text = text
+            .push("` has ")
+            .number(words)
+            .push(" words of details, but an exception carries ")
+            .number(crate::exception::MAX_DETAILS)
+            .push(": keep the rest in a `SliceMut` of the launch parameters");
+        panic!("{}", text.as_str());
+    }
+}
+
+/// The larger of two.
+pub const fn larger(a: usize, b: usize) -> usize {
+    if a > b { a } else { b }
 }
 
 /// A record's data is aligned to 16 bytes at most (guide 7.2).

@@ -177,7 +177,7 @@ unsafe impl DeviceData for Traversable {
     message = "`{Self}` can't be a plain field that crosses from host to device",
     label = "neither plain data nor known to be a view",
     note = "plain data are numbers, glam vectors, arrays of these, and your `#[repr(C)]` structs of these with `#[derive(Clone, Copy, DeviceData)]`",
-    note = "if the type holds `Slice`, `SliceMut`, `SliceMut2d` or `Traversable`, perhaps under another name, put `#[view]` on the field"
+    note = "if the type holds a view (`Slice` and its kin, `Traversable`, `Callable`), perhaps under another name, put `#[view]` on the field"
 )]
 pub trait Plain: DeviceData {
     /// [`DeviceData::write_to`].

@@ -64,9 +64,11 @@ extern crate self as optix_device_rs;
 extern crate std;
 
 pub mod attributes;
+pub mod callable;
 #[doc(hidden)]
 pub mod check;
 pub mod data;
+pub mod exception;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod host;
 #[doc(hidden)]

@@ -1,6 +1,8 @@
 //! A pipeline as a type: what `pipeline!` declares, and what host and device read from it.
 
 use crate::attributes::Geometry;
+use crate::callable::{CallableKind, Signature};
+use crate::exception::UserException;
 use crate::params::LaunchParams;
 use crate::payload::Payload;
 use crate::record::SbtRecord;
@@ -17,6 +19,8 @@ use crate::record::SbtRecord;
 pub unsafe trait Pipeline: Sized + 'static {
     /// The launch parameters.
     type Params: LaunchParams;
+    /// What its programs may throw; [`NoException`](crate::exception::NoException) if nothing.
+    type Exception: UserException;
     /// How many ray types there are: the SBT stride of every trace call.
     const RAY_TYPES: u32;
     /// All of it as a value, for the host.
@@ -69,3 +73,47 @@ pub unsafe trait HasRayGen<Prog>: Pipeline {
     /// Its record.
     type Record: SbtRecord;
 }
+
+/// The pipeline has the callable that type `Prog` stands for.
+///
+/// # Safety
+/// The number is that of the program in the pipeline's description, with this record, signature and kind.
+#[diagnostic::on_unimplemented(
+    message = "`{Prog}` is not a callable of pipeline `{Self}`",
+    label = "not among the `direct_callables` and `continuation_callables` of `{Self}`"
+)]
+pub unsafe trait HasCallable<Prog>: Pipeline {
+    /// The program's number in the pipeline's description.
+    const INDEX: u32;
+    /// Its record.
+    type Record: SbtRecord;
+    /// What it takes and returns.
+    type Signature: Signature;
+    /// Direct or continuation.
+    type Kind: CallableKind;
+}
+
+/// The pipeline has an exception program.
+///
+/// # Safety
+/// The description's exception program has this record.
+#[diagnostic::on_unimplemented(
+    message = "pipeline `{Self}` has no exception program",
+    label = "it has no record to fill in",
+    note = "add `exception: program` in `pipeline!`"
+)]
+pub unsafe trait HasException: Pipeline {
+    /// Its record.
+    type Record: SbtRecord;
+}
+
+/// Programs of the pipeline may throw `E`.
+///
+/// # Safety
+/// The description says so, and [`Pipeline::Exception`] is `E`.
+#[diagnostic::on_unimplemented(
+    message = "programs of pipeline `{Self}` can't throw `{E}`",
+    label = "`{Self}` does not say that its programs throw `{E}`",
+    note = "add `throws: {E}` in `pipeline!`, or bound a generic program by `P: Throws<{E}>`; without it OptiX would not see the exception (guide 13.14)"
+)]
+pub unsafe trait Throws<E: UserException>: Pipeline<Exception = E> {}

@@ -1,12 +1,17 @@
 //! What a shader crate uses: `use optix_device_rs::prelude::*;`.
 
 pub use crate::attributes::{Attributes, Custom, Triangles};
+pub use crate::callable::{Callable, Callables, Continuation, Direct};
 pub use crate::data::DeviceData;
+pub use crate::exception::{Raised, UserException};
 pub use crate::math::{Math, Onb};
 pub use crate::params::LaunchParams;
 pub use crate::payload::Payload;
-pub use crate::pipeline::{HasHitGroup, HasRay, Pipeline};
-pub use crate::program::{AnyHit, ClosestHit, Face, Intersection, Miss, RayGen, Transform};
+pub use crate::pipeline::{HasHitGroup, HasRay, Pipeline, Throws};
+pub use crate::program::{
+    AnyHit, CallsContinuation, CallsDirect, ClosestHit, ContinuationCallable, DirectCallable, Exception, Face,
+    Intersection, Miss, RayGen, Transform,
+};
 pub use crate::ray::{AnyHitMode, CullFaces, Decision, Ray, RayFlags, Traversable};
 pub use crate::record::SbtRecord;
 pub use crate::rng::Pcg32;
@@ -15,6 +20,6 @@ pub use crate::view::{Element, Slice, SliceMut, SliceMut2d};
 pub use crate::words::Words;
 pub use glam::{Affine3A, Mat3, Mat4, Quat, UVec2, UVec3, UVec4, Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
 pub use optix_macros::{
-    Attributes, DeviceData, Element, Payload, SbtRecord, Words, anyhit, closesthit, intersection, launch_params, miss,
-    pipeline, raygen,
+    Attributes, DeviceData, Element, Payload, SbtRecord, UserException, Words, anyhit, closesthit,
+    continuation_callable, direct_callable, exception, intersection, launch_params, miss, pipeline, raygen,
 };

@@ -28,7 +28,7 @@ impl WordBuffer {
 /// Implemented for `f32`, `f64`, integers up to 64 bits, `bool` and `char`; glam's vectors, quaternions, matrices and affine
 /// maps of `f32`, `f64` and 16- and 32-bit integers; raw pointers and the views of device memory
 /// ([`Slice`](crate::view::Slice) and its kin, [`Traversable`](crate::ray::Traversable)); `Option` (a word more, 0 for
-/// `None`), pairs and arrays of these; and by `#[derive(Words)]` for structs of these. Smaller integers, `bool` and `char`
+/// `None`), tuples of up to eight and arrays of these; and by `#[derive(Words)]` for structs of these. Smaller integers, `bool` and `char`
 /// take a whole word each.
 ///
 /// ```
@@ -171,19 +171,36 @@ impl<T: Words> Words for Option<T> {
     }
 }
 
-impl<A: Words, B: Words> Words for (A, B) {
-    const COUNT: usize = A::COUNT + B::COUNT;
-    #[inline(always)]
-    fn store(self, words: &mut [u32]) {
-        self.0.store(part_mut(words, 0, A::COUNT));
-        self.1.store(part_mut(words, A::COUNT, Self::COUNT));
-    }
-    #[inline(always)]
-    unsafe fn load(words: &[u32]) -> Self {
-        // SAFETY: the pair's `store` wrote each part with its own.
-        unsafe { (A::load(part(words, 0, A::COUNT)), B::load(part(words, A::COUNT, Self::COUNT))) }
-    }
+macro_rules! tuple {
+    ($(($($name:ident)*))*) => {$(
+        #[allow(non_snake_case, unused_assignments, reason = "one name for type and value; the last place is not used")]
+        // In messages they would take the place of types that are looked for.
+        #[diagnostic::do_not_recommend]
+        impl<$($name: Words),*> Words for ($($name,)*) {
+            const COUNT: usize = 0 $(+ $name::COUNT)*;
+            #[inline(always)]
+            fn store(self, words: &mut [u32]) {
+                let ($($name,)*) = self;
+                let mut at = 0;
+                $(
+                    $name.store(part_mut(words, at, at + $name::COUNT));
+                    at += $name::COUNT;
+                )*
+            }
+            #[inline(always)]
+            unsafe fn load(words: &[u32]) -> Self {
+                let mut at = 0;
+                $(
+                    // SAFETY: the tuple's `store` wrote each part with its own.
+                    let $name = unsafe { $name::load(part(words, at, at + $name::COUNT)) };
+                    at += $name::COUNT;
+                )*
+                ($($name,)*)
+            }
+        }
+    )*};
 }
+tuple! { (A) (A B) (A B C) (A B C D) (A B C D E) (A B C D E F) (A B C D E F G) (A B C D E F G H) }
 
 /// Types that go by way of an array.
 macro_rules! as_array {
@@ -283,6 +300,7 @@ mod tests {
             round_trip(a.cast_signed());
             round_trip((a as u16, b as u8));
             round_trip((a as i16, b as i8));
+            round_trip((a, b as u8, f, wide, (), [b], Some(a), (f,)));
             round_trip(wide);
             round_trip(wide.cast_signed());
             round_trip(f64::from(f) * f64::from(b));

@@ -10,6 +10,7 @@
 
 mod data;
 mod element;
+mod exception;
 #[cfg(test)]
 mod fuzz;
 mod params;
@@ -191,6 +192,33 @@ pub fn derive_attributes(input: TokenStream) -> TokenStream {
     support::derive(input.into(), words::derive_attributes).into()
 }
 
+/// Makes an enum what programs throw: a variant for each thing that goes wrong, its fields the details (guide 13.14).
+///
+/// ```
+/// use optix_device_rs::prelude::*;
+///
+/// #[derive(Clone, Copy, UserException)]
+/// pub enum Fault {
+///     NotANumber { pixel: UVec2, light: Vec3 },
+///     BadMaterial(u32),
+///     Lost,
+/// }
+/// assert_eq!(Fault::VARIANTS[1], (1, "BadMaterial"));
+///
+/// fn check<P: Throws<Fault>>(rg: &RayGen<P>, material: u32) {
+///     if material > 9 {
+///         rg.throw(Fault::BadMaterial(material));
+///     }
+/// }
+/// ```
+///
+/// Codes are the variants' discriminants, from 0 to 2^30 - 1; with fields, rustc wants `#[repr(u32)]` for discriminants of
+/// one's own. A variant's fields take 8 words at most. Both are asserted when the enum is compiled.
+#[proc_macro_derive(UserException, attributes(optix))]
+pub fn derive_user_exception(input: TokenStream) -> TokenStream {
+    support::derive(input.into(), exception::derive).into()
+}
+
 /// Makes a struct the launch parameters: what every program of a launch sees.
 ///
 /// ```
@@ -248,6 +276,9 @@ pub fn launch_params(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// | `#[closesthit]` | `&ClosestHit<P, A>` | `record: &R`, then `ray: XAtClosestHit` | `XFromClosestHit` or nothing |
 /// | `#[anyhit]` | `&AnyHit<P, A>` | `record: &R`, then `ray: XAtAnyHit` | `Decision` or `(Decision, XFromAnyHit)` |
 /// | `#[intersection]` | `&Intersection<P, A>` | `record: &R`, then `ray: XAtIntersection` | `XFromIntersection` or nothing |
+/// | `#[direct_callable]` | `&DirectCallable<P>` | `record: &R`, then what its caller passes | what its caller takes |
+/// | `#[continuation_callable]` | `&ContinuationCallable<P>` | the same | the same |
+/// | `#[exception]` | `&Exception<P>` | `record: &R` | nothing |
 ///
 /// The context comes first. A program that leaves out the record serves all materials; one that leaves out the payload
 /// serves all ray types whose payload asks nothing of it. Pipeline `P`, hits `A` and record `R` may be type parameters, so
@@ -350,6 +381,93 @@ pub fn intersection(arguments: TokenStream, item: TokenStream) -> TokenStream {
     program::expand(program::Kind::Intersection, arguments.into(), item.into()).into()
 }
 
+/// Makes a function a direct callable: programs call it through a [`Callable`], chosen while they run (guide 15).
+///
+/// ```
+/// use optix_device_rs::prelude::*;
+///
+/// #[derive(Clone, Copy, SbtRecord)]
+/// #[repr(C)]
+/// pub struct Stripes {
+///     pub width: f32,
+/// }
+///
+/// #[direct_callable]
+/// fn stripes<P: Pipeline>(_: &DirectCallable<P>, record: &Stripes, uv: Vec2) -> Vec3 {
+///     if (uv.x / record.width).fract() < 0.5 { Vec3::ONE } else { Vec3::ZERO }
+/// }
+///
+/// // A material that has some texture, and does not know which:
+/// #[derive(Clone, Copy, SbtRecord)]
+/// #[repr(C)]
+/// pub struct Painted {
+///     pub texture: Callable<fn(Vec2) -> Vec3>,
+/// }
+/// fn colour<P: Pipeline>(hit: &ClosestHit<P, Triangles>, record: &Painted) -> Vec3 {
+///     record.texture.call(hit, hit.barycentrics())
+/// }
+/// ```
+///
+/// Arguments and result travel in registers: they are by value, of types that are `Words`, with 32 words each at most. A
+/// direct callable traces no rays, and what it calls doesn't either: its context has no `trace`.
+/// [`raygen`](macro@raygen) says what else holds for programs.
+///
+/// [`Callable`]: https://docs.rs/optix-device-rs/latest/optix_device_rs/callable/struct.Callable.html
+#[proc_macro_attribute]
+pub fn direct_callable(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    program::expand(program::Kind::DirectCallable, arguments.into(), item.into()).into()
+}
+
+/// Makes a function a continuation callable: as a [direct one](macro@direct_callable), but it may trace rays (guide 15).
+///
+/// ```
+/// use optix_device_rs::prelude::*;
+/// # #[launch_params] pub struct Frame { pub world: Traversable }
+/// # #[derive(Payload)] pub struct Radiance { #[payload(write(closesthit, miss), read(caller))] pub light: Vec3 }
+///
+/// #[continuation_callable]
+/// fn mirror<P>(cc: &ContinuationCallable<P>, point: Vec3, direction: Vec3) -> Vec3
+/// where
+///     P: HasRay<Radiance> + Pipeline<Params = Frame>,
+/// {
+///     cc.trace::<Radiance>(cc.params().world(), Ray::new(point, direction), ()).light
+/// }
+///
+/// // Its reference says so, and only programs that may trace can call it:
+/// fn shade<P>(hit: &ClosestHit<P, Triangles>, how: Callable<fn(Vec3, Vec3) -> Vec3, Continuation>) -> Vec3 {
+///     how.call(hit, hit.world_ray_origin(), -hit.world_ray_direction())
+/// }
+/// ```
+///
+/// A call costs more than a direct one, with what lives across it: shader networks do better to trace outside of their
+/// nodes (guide 15.1).
+#[proc_macro_attribute]
+pub fn continuation_callable(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    program::expand(program::Kind::ContinuationCallable, arguments.into(), item.into()).into()
+}
+
+/// Makes a function the exception program: it is told why a launch index ended (guide 13.14).
+///
+/// ```
+/// use optix_device_rs::prelude::*;
+/// # #[launch_params] pub struct Frame { pub film: SliceMut2d<Vec4> }
+///
+/// #[exception]
+/// fn report<P: Pipeline<Params = Frame>>(ex: &Exception<P>) {
+///     let colour = match ex.raised() {
+///         Raised::StackOverflow | Raised::TraceDepthExceeded => Vec4::X,
+///         _ => Vec4::Y,
+///     };
+///     ex.params().film().set(ex.launch_index().xy(), colour);
+/// }
+/// ```
+///
+/// It calls, traces and throws nothing. [`raygen`](macro@raygen) says what else holds for programs.
+#[proc_macro_attribute]
+pub fn exception(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    program::expand(program::Kind::Exception, arguments.into(), item.into()).into()
+}
+
 /// Declares a pipeline: a type from which record types, SBT offsets and strides, payload types, entry points and
 /// attribute counts follow, on both machines.
 ///
@@ -397,6 +515,12 @@ pub fn intersection(arguments: TokenStream, item: TokenStream) -> TokenStream {
 ///   a material, named by its record, on `Triangles` or `Custom`. Each names every ray type, with `{}` for those it has no
 ///   programs for. Custom geometry has an intersection program for every ray type, all reporting the same attributes; a
 ///   closest-hit program may be left out where the payload asks nothing of it.
+/// - `direct_callables: [program, ..]`, `continuation_callables: [program, ..]`, optional: the callables. A scene makes any
+///   number of records of each.
+/// - `throws: Enum`, optional: what programs may throw, an enum with [`UserException`](macro@UserException).
+/// - `exception: program`, optional: the program that is told of exceptions. Without it, but with `throws`, the first five
+///   exceptions of a launch are printed by OptiX, and are complaints of the CPU's device.
+/// - `callable_depth: N`, 1 to 31, optional: how deep callables call each other, where they do.
 /// - `trace_depth: N`, 0 to 31, optional: how deep trace calls nest, where it is known better than from the programs.
 /// - `crate: path`, optional: optix-device-rs under another name.
 ///

@@ -48,7 +48,7 @@ impl Field {
 }
 
 /// The names of the view types; an alias of one needs `#[view]`.
-const VIEWS: [&str; 4] = ["Slice", "SliceMut", "SliceMut2d", "Traversable"];
+const VIEWS: [&str; 6] = ["Slice", "SliceMut", "SliceMut2d", "Traversable", "Callable", "Callables"];
 
 /// Whether the type is a view by its name, or an array of these.
 fn is_view(ty: &Type) -> bool {

@@ -16,7 +16,7 @@ use std::fmt;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Module<'a> {
-    /// The entry points.
+    /// The entry points: programs that OptiX starts, and callables, which are functions in PTX.
     pub entries: Vec<&'a str>,
     /// The functions that were not inlined.
     pub functions: Vec<&'a str>,
@@ -79,7 +79,9 @@ impl<'a> Module<'a> {
             } else if let Some((before, rest)) = line.split_once(".func") {
                 let is_declaration = line.trim_end().ends_with(';');
                 if (before.is_empty() || before.starts_with('.')) && !is_declaration {
-                    module.functions.push(function_name_on(rest, &mut lines));
+                    let name = function_name_on(rest, &mut lines);
+                    let names = if is_callable(name) { &mut module.entries } else { &mut module.functions };
+                    names.push(name);
                 }
             }
         }
@@ -108,6 +110,11 @@ pub fn local_memory(text: &str) -> Vec<(String, usize)> {
     let text = body::plain(text);
     let bodies = body::bodies(&text);
     bodies.iter().filter_map(|body| Some((body.name.to_string(), body.local_memory()?))).collect()
+}
+
+/// Whether a function is a callable, by OptiX's prefixes.
+pub(crate) fn is_callable(name: &str) -> bool {
+    name.starts_with("__direct_callable__") || name.starts_with("__continuation_callable__")
 }
 
 /// What the OptiX and CUDA run times define: device functions, `printf` and `assert`.
@@ -154,10 +161,11 @@ mod tests {
         let text = format!(
             "{HEAD}.extern .func  (.param .b32 func_retval0) vprintf\n(\n)\n;\n\
              .func  (.param .b32 func_retval0) slow_path(\n\t.param .b32 a\n)\n{{\n}}\n\
+             .visible .func  (.param .b32 func_retval0) __direct_callable__b(\n\t.param .b32 a\n)\n{{\n}}\n\
              .visible .entry __raygen__a(\n)\n{{\n\tcall (%r1), _optix_get_launch_index_x, ();\n}}\n"
         );
         let module = Module::read(&text).expect("valid");
-        assert_eq!(module.entries, ["__raygen__a"]);
+        assert_eq!(module.entries, ["__direct_callable__b", "__raygen__a"]);
         assert_eq!(module.functions, ["slow_path"]);
         assert_eq!((module.version, module.target), ("6.3", "sm_75"));
     }

@@ -4,6 +4,7 @@ use super::Frame;
 use crate::attributes::GeometryKind;
 use crate::params::Field;
 use crate::ray::Decision;
+use core::any::TypeId;
 
 /// A device program: its entry in the PTX and its host function.
 #[derive(Clone, Copy)]
@@ -77,6 +78,50 @@ pub struct ProgramDescription {
     pub entry: Entry,
     /// Its record.
     pub record: RecordLayout,
+}
+
+/// A callable, of which a scene makes any number of records.
+#[derive(Clone, Copy, Debug)]
+pub struct CallableDescription {
+    /// The program.
+    pub entry: Entry,
+    /// Its record.
+    pub record: RecordLayout,
+    /// Whether it is a continuation callable.
+    pub continuation: bool,
+    /// The signature's type, such as `fn(Vec2) -> Vec3`.
+    pub signature: TypeId,
+}
+
+impl CallableDescription {
+    /// Of a program with record `R`, signature `F` and kind `K`.
+    pub const fn of<R, F, K>(entry: Entry) -> Self
+    where
+        R: crate::record::SbtRecord,
+        F: crate::callable::Signature,
+        K: crate::callable::CallableKind,
+    {
+        let (record, signature) = (RecordLayout::of::<R>(), TypeId::of::<F>());
+        Self { entry, record, continuation: K::IS_CONTINUATION, signature }
+    }
+}
+
+/// The exceptions of a pipeline (guide 13.14).
+#[derive(Clone, Copy, Debug)]
+pub struct ExceptionsDescription {
+    /// What programs may throw: the type's name; none if they throw nothing.
+    pub throws: Option<&'static str>,
+    /// Code and name of each of these exceptions.
+    pub variants: &'static [(u32, &'static str)],
+    /// The exception program.
+    pub program: Option<ProgramDescription>,
+}
+
+impl ExceptionsDescription {
+    /// Whether the pipeline wants to know of any exception.
+    pub const fn are_declared(&self) -> bool {
+        self.throws.is_some() || self.program.is_some()
+    }
 }
 
 /// A ray type.
@@ -157,7 +202,13 @@ pub struct PipelineDescription {
     pub rays: &'static [RayDescription],
     /// The hit groups.
     pub hitgroups: &'static [HitGroupDescription],
+    /// The callables.
+    pub callables: &'static [CallableDescription],
+    /// The exceptions.
+    pub exceptions: ExceptionsDescription,
     /// The greatest depth of nested trace calls, where `pipeline!` states one (`trace_depth: 4`); otherwise it follows
     /// from which programs trace which rays.
     pub trace_depth: Option<u32>,
+    /// The greatest depth of callables that call each other, where `pipeline!` states one (`callable_depth: 2`).
+    pub callable_depth: Option<u32>,
 }

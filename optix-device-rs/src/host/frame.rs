@@ -3,9 +3,11 @@
 use crate::machine::TraceCall;
 use crate::ray::Ray;
 use crate::words::WordBuffer;
+use core::any::TypeId;
 use core::cell::Cell;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec3};
+use std::ffi::CString;
 
 /// What a hit, or a candidate, tells its program.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +32,33 @@ impl HitState {
         Self { primitive_index: 0, sbt_gas_index: 0, instance_id: !0, instance_index: 0, kind: 0, attributes: [0; 8] };
 }
 
+/// What an exception program is told (guide 13.14).
+#[derive(Clone, Debug)]
+pub struct ExceptionState {
+    /// Negative for OptiX's own: [`Raised`](crate::exception::Raised).
+    pub code: i32,
+    /// Details of a user exception.
+    pub details: [u32; 8],
+    /// Where it was thrown, if that is known.
+    pub line: Option<CString>,
+}
+
+impl ExceptionState {
+    /// For other programs.
+    pub const NONE: Self = Self { code: 0, details: [0; 8], line: None };
+}
+
+/// A call of a callable (guide 15.2).
+#[derive(Clone, Copy, Debug)]
+pub struct CallableCall {
+    /// Index in the callables section.
+    pub index: u32,
+    /// Whether a continuation callable is called.
+    pub continuation: bool,
+    /// The signature's type, such as `fn(Vec2) -> Vec3`.
+    pub signature: TypeId,
+}
+
 /// Everything a program call on the host can see.
 pub struct Frame<'a> {
     /// Who runs it.
@@ -42,7 +71,7 @@ pub struct Frame<'a> {
     pub params: NonNull<u8>,
     /// The data of the program's record, a valid value of its record type.
     pub record: NonNull<u8>,
-    /// The payload, shared by all programs of a trace call.
+    /// The payload, shared by all programs of a trace call. For a callable its arguments, then its result.
     pub payload: &'a Cell<WordBuffer>,
     /// Who is told of the fields that the program takes and gives; only an executor that checks wants to know.
     pub watch: Option<&'a dyn PayloadWatch>,
@@ -52,6 +81,8 @@ pub struct Frame<'a> {
     pub object_ray: (Vec3, Vec3),
     /// The hit.
     pub hit: HitState,
+    /// The exception; exception programs only.
+    pub exception: &'a ExceptionState,
 }
 
 /// Is told of a program's payload accesses before they happen. Fields are indices into
@@ -67,6 +98,10 @@ pub trait PayloadWatch {
 pub trait Executor {
     /// Traces a ray; `payload` goes in and comes back.
     fn trace(&self, call: &TraceCall, payload: &mut WordBuffer);
+    /// Calls a callable; `words` are its arguments, then its result.
+    fn call(&self, call: &CallableCall, words: &mut WordBuffer);
+    /// Ends the launch index, after the exception program, by unwinding: nothing may hold what must be put back.
+    fn throw(&self, exception: ExceptionState) -> !;
     /// Reports a hit from an intersection program; true if it was accepted.
     fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool;
     /// The end of the ray's interval as an intersection program sees it (guide 13.5): changes while it reports.

@@ -1,6 +1,7 @@
 //! What the host side of a shader crate shares with `optix-host`: the description of a pipeline, the frame of a program
 //! call, and the owning twins of device views.
 
+mod callable;
 mod description;
 mod frame;
 mod memory;
@@ -8,10 +9,11 @@ mod twin;
 
 pub use crate::attributes::GeometryKind;
 pub use crate::machine::TraceCall;
+pub use callable::{CallableRecord, CallableTable};
 pub use description::{
-    Entry, HitGroupDescription, HitPrograms, ParamsDescription, PayloadDescription, PipelineDescription,
-    ProgramDescription, RayDescription, RecordLayout,
+    CallableDescription, Entry, ExceptionsDescription, HitGroupDescription, HitPrograms, ParamsDescription,
+    PayloadDescription, PipelineDescription, ProgramDescription, RayDescription, RecordLayout,
 };
-pub use frame::{Executor, Frame, HitState, PayloadWatch};
+pub use frame::{CallableCall, ExceptionState, Executor, Frame, HitState, PayloadWatch};
 pub use memory::{Buffer, Buffer2d, DeviceId, Memory, MemoryError, World};
 pub use twin::{KeepAlive, Twin, View};

@@ -11,8 +11,8 @@ use std::vec::Vec;
 /// What a launch or a shader binding table keeps alive, gathered while twins are lowered to device data.
 #[derive(Default)]
 pub struct KeepAlive {
-    owners: Vec<Arc<dyn Any + Send + Sync>>,
-    devices: Vec<(DeviceId, &'static str)>,
+    pub(super) owners: Vec<Arc<dyn Any + Send + Sync>>,
+    pub(super) devices: Vec<(DeviceId, &'static str)>,
 }
 
 impl KeepAlive {
@@ -58,7 +58,7 @@ impl Twin for () {
 /// Which host type stands in for a view in a host twin. Used by the derives.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a view of device memory",
-    label = "only `Slice`, `SliceMut`, `SliceMut2d` and `Traversable` have an owner on the host",
+    label = "only `Slice`, `SliceMut`, `SliceMut2d`, `Traversable`, `Callable` and `Callables` have an owner on the host",
     note = "a field is taken for a view by its type's name or by `#[view]`: give a type of your own another name, or take `#[view]` away"
 )]
 pub trait View: DeviceData {

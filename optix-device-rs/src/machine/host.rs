@@ -1,14 +1,19 @@
 //! Device functions on the host: each reads the frame that the executor made for the program call.
 
 use super::TraceCall;
-use crate::host::Frame;
+use crate::callable::Signature;
+use crate::host::{CallableCall, ExceptionState, Frame};
 use crate::params::LaunchParams;
-use crate::words::{MAX_PAYLOAD_WORDS, WordBuffer};
+use crate::words::{MAX_PAYLOAD_WORDS, WordBuffer, Words, part, part_mut};
+use core::any::TypeId;
 use core::cell::Cell;
+use core::ffi::CStr;
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
+use core::panic::Location;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec2, Vec3};
+use std::ffi::CString;
 
 /// The running program's frame.
 #[derive(Clone, Copy)]
@@ -209,5 +214,47 @@ impl Cx {
     #[inline(always)]
     pub fn report(&self, t: f32, kind: u32, count: usize, attributes: &WordBuffer) -> bool {
         self.frame().executor.report(t, kind as u8, count, attributes)
+    }
+
+    fn call<F: Signature>(&self, continuation: bool, index: u32, arguments: F::Arguments) -> F::Result {
+        let mut words = WordBuffer::ZERO;
+        arguments.store(part_mut(&mut words.0, 0, F::Arguments::COUNT));
+        let call = CallableCall { index, continuation, signature: TypeId::of::<F>() };
+        self.frame().executor.call(&call, &mut words);
+        // SAFETY: the executor compares the signatures, and the callable's entry stored what it returned (`entry::result`).
+        unsafe { F::Result::load(part(&words.0, 0, F::Result::COUNT)) }
+    }
+    /// # Safety
+    /// None on the host; on the device the record has to be there, of a direct callable with signature `F`.
+    #[inline(always)]
+    pub unsafe fn call_direct<F: Signature>(&self, index: u32, arguments: F::Arguments) -> F::Result {
+        self.call::<F>(false, index, arguments)
+    }
+    /// # Safety
+    /// As for `call_direct`.
+    #[inline(always)]
+    pub unsafe fn call_continuation<F: Signature>(&self, index: u32, arguments: F::Arguments) -> F::Result {
+        self.call::<F>(true, index, arguments)
+    }
+    #[track_caller]
+    pub fn throw(&self, code: u32, _count: usize, details: &WordBuffer) -> ! {
+        let at = Location::caller();
+        let line = CString::new(std::format!("{}:{}", at.file(), at.line())).ok();
+        let details = core::array::from_fn(|i| details.0[i]);
+        self.frame().executor.throw(ExceptionState { code: code.cast_signed(), details, line })
+    }
+    #[inline(always)]
+    pub fn exception_code(&self) -> i32 {
+        self.frame().exception.code
+    }
+    #[inline(always)]
+    pub fn exception_details(&self, _count: usize) -> WordBuffer {
+        let mut words = WordBuffer::ZERO;
+        words.0[..8].copy_from_slice(&self.frame().exception.details);
+        words
+    }
+    #[inline(always)]
+    pub fn exception_line(&self) -> Option<&CStr> {
+        self.frame().exception.line.as_deref()
     }
 }

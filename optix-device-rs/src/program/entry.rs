@@ -2,8 +2,12 @@
 //! machine, so that a program that does not fit is reported once and with its own message.
 
 use super::*;
+#[cfg(not(target_arch = "nvptx64"))]
+use crate::payload::word_mask;
 use crate::payload::{Part, Transport};
 use crate::pipeline::HasRay;
+#[cfg(not(target_arch = "nvptx64"))]
+use crate::words::{Words, part, part_mut};
 
 /// What a ray-generation program gets.
 ///
@@ -13,6 +17,53 @@ use crate::pipeline::HasRay;
 pub unsafe fn raygen<P: Pipeline, Rec: SbtRecord>(cx: &Cx) -> (RayGen<P>, &Rec) {
     // SAFETY: the caller's.
     (RayGen::new(*cx), unsafe { record::<Rec>(cx) })
+}
+
+/// What an exception program gets.
+///
+/// # Safety
+/// `cx` is of an exception program whose record is a `Rec`.
+#[inline(always)]
+pub unsafe fn exception<P: Pipeline, Rec: SbtRecord>(cx: &Cx) -> (Exception<P>, &Rec) {
+    // SAFETY: the caller's.
+    (Exception::new(*cx), unsafe { record::<Rec>(cx) })
+}
+
+macro_rules! callable_entries {
+    ($($name:ident: $context:ident, $what:literal;)*) => {$(
+        #[doc = concat!("What a ", $what, " gets, besides its arguments.")]
+        ///
+        /// # Safety
+        #[doc = concat!("`cx` is of a ", $what, " whose record is a `Rec`.")]
+        #[inline(always)]
+        pub unsafe fn $name<P: Pipeline, Rec: SbtRecord>(cx: &Cx) -> ($context<P>, &Rec) {
+            // SAFETY: the caller's.
+            ($context::new(*cx), unsafe { record::<Rec>(cx) })
+        }
+    )*};
+}
+callable_entries! {
+    direct_callable: DirectCallable, "direct callable";
+    continuation_callable: ContinuationCallable, "continuation callable";
+}
+
+/// The arguments of a call, on the host: on the device they are the entry's.
+///
+/// # Safety
+/// `cx` is of a callable with signature `F`.
+#[cfg(not(target_arch = "nvptx64"))]
+pub unsafe fn arguments<F: Signature>(cx: &Cx) -> F::Arguments {
+    let count = F::Arguments::COUNT;
+    // SAFETY: the caller of the callable stored them.
+    unsafe { F::Arguments::load(part(&cx.payload(word_mask(0, count)).0, 0, count)) }
+}
+
+/// Puts what a callable returned where its caller takes it, on the host: on the device the entry returns it.
+#[cfg(not(target_arch = "nvptx64"))]
+pub fn result<F: Signature>(cx: &Cx, result: F::Result) {
+    let mut words = WordBuffer::ZERO;
+    result.store(part_mut(&mut words.0, 0, F::Result::COUNT));
+    cx.set_payload(word_mask(0, F::Result::COUNT), &words);
 }
 
 /// What a miss program gets.

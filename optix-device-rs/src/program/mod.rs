@@ -2,13 +2,17 @@
 //!
 //! A context is zero-sized on the device and one pointer on the host. A program gets it by reference and can't keep it.
 
+mod call;
+pub use call::{CallsContinuation, CallsDirect};
 #[doc(hidden)]
 pub mod entry;
+mod exception;
 mod hit;
 pub use hit::{Face, Transform};
 mod trace;
 
 use crate::attributes::Attributes;
+use crate::callable::Signature;
 use crate::data::DeviceData;
 use crate::machine::Cx;
 use crate::params::LaunchParams;
@@ -78,6 +82,18 @@ context! {
 context! {
     /// Miss: the ray hit nothing.
     Miss<P>
+}
+context! {
+    /// Direct callable: runs like a function call, and traces no rays (guide 15.1).
+    DirectCallable<P>
+}
+context! {
+    /// Continuation callable: runs through the scheduler, and may trace rays (guide 15.1).
+    ContinuationCallable<P>
+}
+context! {
+    /// Exception: is told why a launch index ended (guide 13.14). It calls, traces and throws nothing.
+    Exception<P>
 }
 
 /// Ray queries: intersection, any-hit, closest-hit and miss programs (guide 13.5).
@@ -212,6 +228,59 @@ pub trait IntersectionProgram<P: Pipeline, Rec: SbtRecord, R: Payload> {
     type Attributes: Attributes;
     /// Calls the function.
     fn run(cx: &Intersection<P, Self::Attributes>, record: &Rec, input: R::AtIntersection) -> R::FromIntersection;
+}
+
+/// A direct callable; made by `#[direct_callable]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be a direct callable of pipeline `{P}`",
+    label = "expected a function with `#[direct_callable]` whose context is `&DirectCallable<{P}>`"
+)]
+pub trait DirectCallableProgram<P: Pipeline> {
+    /// What it reads from its record; `()` if nothing.
+    type Record: SbtRecord;
+    /// What it takes and returns, as a function type.
+    type Signature: Signature;
+    /// Calls the function.
+    fn run(
+        cx: &DirectCallable<P>,
+        record: &Self::Record,
+        arguments: Arguments<Self::Signature>,
+    ) -> Returned<Self::Signature>;
+}
+
+/// A continuation callable; made by `#[continuation_callable]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be a continuation callable of pipeline `{P}`",
+    label = "expected a function with `#[continuation_callable]` whose context is `&ContinuationCallable<{P}>`"
+)]
+pub trait ContinuationCallableProgram<P: Pipeline> {
+    /// What it reads from its record; `()` if nothing.
+    type Record: SbtRecord;
+    /// What it takes and returns, as a function type.
+    type Signature: Signature;
+    /// Calls the function.
+    fn run(
+        cx: &ContinuationCallable<P>,
+        record: &Self::Record,
+        arguments: Arguments<Self::Signature>,
+    ) -> Returned<Self::Signature>;
+}
+
+/// The arguments of a callable, as a tuple.
+type Arguments<F> = <F as Signature>::Arguments;
+/// What a callable returns.
+type Returned<F> = <F as Signature>::Result;
+
+/// An exception program; made by `#[exception]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be the exception program of pipeline `{P}`",
+    label = "expected a function with `#[exception]` whose context is `&Exception<{P}>`"
+)]
+pub trait ExceptionProgram<P: Pipeline> {
+    /// What it reads from its record; `()` if nothing.
+    type Record: SbtRecord;
+    /// Calls the function.
+    fn run(cx: &Exception<P>, record: &Self::Record);
 }
 
 /// Reads the record; its type was checked by `pipeline!` and its layout is [`DeviceData`]'s.

@@ -1,6 +1,6 @@
-//! Trace calls: ray generation, closest-hit and miss programs (guide 13.2).
+//! Trace calls: ray generation, closest-hit and miss programs, continuation callables (guide 13.2).
 
-use super::{ClosestHit, Miss, RayGen};
+use super::{ClosestHit, ContinuationCallable, Miss, RayGen};
 use crate::machine::{Cx, TraceCall};
 use crate::payload::{Part, Payload, TracedWithoutClosestHit, Transport};
 use crate::pipeline::HasRay;
@@ -78,4 +78,4 @@ macro_rules! may_trace {
         }
     )*};
 }
-may_trace!(RayGen<P>, ClosestHit<P, A>, Miss<P>);
+may_trace!(RayGen<P>, ClosestHit<P, A>, Miss<P>, ContinuationCallable<P>);

@@ -9,17 +9,21 @@ use crate::sbt::ShaderBindingTable;
 use crate::scene::GeometryData;
 use crate::{Error, Result};
 use optix_device_rs::host::{DeviceId, GeometryKind, Memory};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The CPU.
 pub(crate) struct CpuBackend {
     id: DeviceId,
     checked: bool,
+    complaints: Complaints,
 }
+
+/// Exceptions that no program was told of.
+type Complaints = Arc<Mutex<Vec<String>>>;
 
 impl CpuBackend {
     pub fn new() -> Self {
-        Self { id: next_device_id(), checked: false }
+        Self { id: next_device_id(), checked: false, complaints: Complaints::default() }
     }
 
     /// One that ends a launch, with the rule in the error, where a program does what the guide calls undefined.
@@ -39,7 +43,7 @@ impl Backend for CpuBackend {
     }
 
     fn take_complaints(&self) -> Vec<String> {
-        Vec::new()
+        core::mem::take(&mut self.complaints.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     fn allocate(&self, bytes: usize) -> Result<Arc<dyn Memory>> {
@@ -73,7 +77,7 @@ impl Backend for CpuBackend {
     }
 
     fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable) -> Result<Box<dyn Linked>> {
-        Ok(Box::new(CpuPipeline { plan, sbt, checked: self.checked }))
+        Ok(Box::new(CpuPipeline { plan, sbt, checked: self.checked, complaints: self.complaints.clone() }))
     }
 }
 
@@ -116,19 +120,23 @@ struct CpuPipeline {
     plan: Arc<Plan>,
     sbt: ShaderBindingTable,
     checked: bool,
+    complaints: Complaints,
 }
 
 impl Linked for CpuPipeline {
     fn launch(&self, raygen: usize, params: &[u8], dimensions: [u32; 3]) -> Result<Box<dyn Running>> {
-        machine::run(&Job::new(&self.plan, &self.sbt, params, raygen, dimensions, self.checked))?;
+        let job = Job::new(&self.plan, &self.sbt, params, raygen, dimensions, self.checked);
+        let complaints = machine::run(job)?;
+        self.complaints.lock().unwrap_or_else(PoisonError::into_inner).extend(complaints);
         Ok(Box::new(Done))
     }
 
     fn details(&self) -> Vec<String> {
         vec![format!(
-            "records: {} hit, {} miss, stride {} bytes",
+            "records: {} hit, {} miss, {} callable, stride {} bytes",
             self.sbt.hit.programs().len(),
             self.sbt.miss.programs().len(),
+            self.sbt.callables.programs().len(),
             self.sbt.hit.stride()
         )]
     }

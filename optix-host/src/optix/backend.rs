@@ -190,10 +190,18 @@ impl OptixPipeline {
         let raygen = packed(sbt.raygen, |&i| groups.raygen(plan, i))?;
         let miss = packed(sbt.miss, |&ray| groups.miss(plan, ray))?;
         let hit = packed(sbt.hit, |&slot| groups.hit(plan, slot))?;
+        let callables = packed(sbt.callables, |&program| groups.callable(plan, program))?;
+        let exception = packed(sbt.exception, |()| groups.exception(plan))?;
         let groups: Vec<_> = groups.made.into_values().collect();
+        let group_count = groups.len();
 
         let link = LinkOptions {
-            depths: CallDepths { trace: plan.trace_depth, ..Default::default() },
+            depths: CallDepths {
+                trace: plan.depths.trace,
+                continuation_callables: plan.depths.continuation,
+                direct_callables_from_traversal: plan.depths.direct_from_traversal,
+                direct_callables_from_state: plan.depths.direct_from_state,
+            },
             max_graph_depth: plan.graph_depth,
             stack: None,
         };
@@ -202,28 +210,29 @@ impl OptixPipeline {
             raygen: section(&raygen),
             miss: section(&miss),
             hitgroup: section(&hit),
-            ..Default::default()
+            callables: section(&callables),
+            exception: section(&exception),
         };
         let keep: driver::KeepAlive = vec![Arc::new(groups)];
         let table = DeviceTable::new(context, &sections, keep)?;
         let stack = pipeline.stack();
         let mut details = vec![
-            format!("program groups: {}", groups_count(&raygen, &miss, &hit)),
-            format!("continuation stack: {} bytes", stack.continuation),
+            format!("program groups: {group_count}"),
             format!(
-                "records: {} hit, {} miss, stride {} bytes",
+                "stack: {} bytes of continuations, {} direct, {} direct during traversal",
+                stack.continuation, stack.direct_from_state, stack.direct_from_traversal
+            ),
+            format!(
+                "records: {} hit, {} miss, {} callable, stride {} bytes",
                 hit.programs().len(),
                 miss.programs().len(),
+                callables.programs().len(),
                 hit.stride()
             ),
         ];
         details.extend(module.log().lines().map(|line| format!("compiler: {line}")));
         Ok(Self { pipeline, table, details })
     }
-}
-
-fn groups_count<A, B, C>(raygen: &Section<A>, miss: &Section<B>, hit: &Section<C>) -> usize {
-    raygen.programs().len() + miss.programs().len() + hit.programs().len()
 }
 
 fn section<K>(section: &Section<K>) -> SbtSection<'_> {
@@ -253,6 +262,8 @@ enum GroupKey {
     Raygen(usize),
     Miss(usize),
     Hit(HitProgram),
+    Callable(usize),
+    Exception,
 }
 
 impl Groups<'_> {
@@ -288,6 +299,20 @@ impl Groups<'_> {
         let has_programs = [programs.closesthit, programs.anyhit, programs.intersection].iter().any(Option::is_some);
         self.get(GroupKey::Hit(slot), &group, has_programs.then_some(slot.ray))
     }
+
+    /// A group may hold a direct and a continuation callable with one record; here each has a record type of its own, so
+    /// a group of its own.
+    fn callable(&mut self, plan: &Plan, program: usize) -> Result<ProgramGroup> {
+        let callable = &plan.description.callables[program];
+        let entry = Some(Entry { module: self.module, name: callable.entry.name });
+        let (direct, continuation) = if callable.continuation { (None, entry) } else { (entry, None) };
+        self.get(GroupKey::Callable(program), &Programs::Callables { direct, continuation }, None)
+    }
+
+    fn exception(&mut self, plan: &Plan) -> Result<ProgramGroup> {
+        let name = plan.description.exceptions.program.map_or("", |program| program.entry.name);
+        self.get(GroupKey::Exception, &Programs::Exception(Entry { module: self.module, name }), None)
+    }
 }
 
 fn pipeline_options(plan: &Plan) -> PipelineOptions {
@@ -306,6 +331,11 @@ fn pipeline_options(plan: &Plan) -> PipelineOptions {
         attribute_values: plan.attribute_words,
         launch_params: Some(plan.description.params.symbol.into()),
         primitives,
+        exceptions: driver::Exceptions {
+            stack_overflow: plan.exceptions.stack_overflow,
+            trace_depth: plan.exceptions.trace_depth,
+            user: plan.exceptions.user,
+        },
         ..Default::default()
     }
 }

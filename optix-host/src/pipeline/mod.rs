@@ -1,17 +1,19 @@
 //! Pipelines: specialised to a scene, built for a device, launched.
 
 mod bind;
+mod depth;
 mod explain;
 mod plan;
 pub mod ptx;
 
 pub(crate) use bind::BoundValue;
+pub(crate) use depth::Depths;
 pub use explain::{Explanation, Note};
-pub(crate) use plan::{Graph, Plan};
+pub(crate) use plan::{Exceptions, Graph, Plan};
 
 use crate::backend::{Linked, Running};
 use crate::sbt::ShaderBindingTable;
-use crate::scene::{AccelShared, RecordData, Scene};
+use crate::scene::{AccelShared, CallableShared, RecordData, Scene};
 use crate::{BackendKind, Device, Error, Result};
 use optix_device_rs::data::DeviceData;
 use optix_device_rs::host::{KeepAlive, Twin};
@@ -28,6 +30,7 @@ pub struct Pipeline<P> {
     device: Device,
     scene: u64,
     slots: u32,
+    callables: u32,
     /// What the records' views point to.
     records: Vec<Arc<dyn Any + Send + Sync>>,
     pipeline: PhantomData<fn(P)>,
@@ -84,6 +87,9 @@ impl<P: PipelineType> Pipeline<P> {
             if let Some(accel) = owner.downcast_ref::<AccelShared>() {
                 self.check_world(accel).map_err(error)?;
             }
+            if let Some(callables) = owner.downcast_ref::<CallableShared>() {
+                self.check_callables(callables).map_err(error)?;
+            }
         }
         let mut bytes = vec![0; size_of::<P::Params>()];
         device_params.write_to(&mut bytes);
@@ -110,6 +116,17 @@ impl<P: PipelineType> Pipeline<P> {
                  build the pipeline after the acceleration structures",
                 accel.depth, self.plan.graph
             ));
+        }
+        Ok(())
+    }
+
+    /// Whether the pipeline's table has these callables.
+    fn check_callables(&self, callables: &CallableShared) -> Result<(), String> {
+        if callables.scene != self.scene {
+            return Err("its parameters hold a callable of another scene than the pipeline's".into());
+        }
+        if callables.end > self.callables {
+            return Err("the scene got more callables after the pipeline was built: build the pipeline again".into());
         }
         Ok(())
     }
@@ -156,12 +173,14 @@ impl<'s, P: PipelineType> PipelineBuilder<'s, P> {
         let sbt = ShaderBindingTable::of(state, &plan)?;
         let linked = device.backend.link(plan.clone(), sbt)?;
         let records = state.materials.iter().map(|m| &m.record).chain(&state.miss).chain(&state.raygen);
+        let records = records.chain(state.callables.iter().map(|c| &c.record)).chain([&state.exception]);
         Ok(Pipeline {
             linked,
             plan,
             device,
             scene: state.id,
             slots: state.slots.len() as u32,
+            callables: state.callables.len() as u32,
             records: records.flat_map(|RecordData { keep, .. }| keep.iter().cloned()).collect(),
             pipeline: PhantomData,
         })

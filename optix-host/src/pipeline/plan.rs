@@ -1,14 +1,12 @@
 //! The specialisation of a pipeline type to a scene: everything that neither needs is left out.
 
+use super::depth::{Depths, Reached, needed_entries, reached_entries};
 use super::{BoundValue, Explanation, Note, ptx};
 use crate::scene::SceneState;
 use crate::{Error, Result};
 use core::fmt;
 use optix_device_rs::host::{GeometryKind, PipelineDescription};
-use std::collections::{BTreeMap, BTreeSet};
-
-/// Deepest nesting of trace calls (guide 12).
-const MAX_TRACE_DEPTH: u32 = 31;
+use std::collections::BTreeSet;
 
 /// Which traversable graphs rays meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +41,26 @@ impl fmt::Display for Graph {
     }
 }
 
+/// Which exceptions are raised (guide 13.14).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Exceptions {
+    pub stack_overflow: bool,
+    pub trace_depth: bool,
+    pub user: bool,
+}
+
+impl fmt::Display for Exceptions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let flags = [
+            (self.stack_overflow, "stack overflow"),
+            (self.trace_depth, "trace depth"),
+            (self.user, "user exceptions"),
+        ];
+        let on: Vec<_> = flags.into_iter().filter(|(on, _)| *on).map(|(_, name)| name).collect();
+        f.write_str(&if on.is_empty() { "off".into() } else { on.join(", ") })
+    }
+}
+
 /// A pipeline type specialised to a scene.
 #[derive(Debug)]
 pub(crate) struct Plan {
@@ -52,7 +70,8 @@ pub(crate) struct Plan {
     /// Levels of the graph, the GAS included.
     pub graph_depth: u32,
     pub attribute_words: u32,
-    pub trace_depth: u32,
+    pub depths: Depths,
+    pub exceptions: Exceptions,
     pub bound: Vec<BoundValue>,
     /// The text with only the entries that the scene needs.
     pub ptx: Option<String>,
@@ -122,9 +141,24 @@ impl Plan {
         if let Some(text) = ptx {
             check_layout(&description, text)?;
         }
-        let entries = needed_entries(&description, &used);
-        let (trace_depth, why) = trace_depth(&description, &entries, ptx)?;
-        note("trace depth", trace_depth.to_string(), why);
+        let callables: BTreeSet<usize> = scene.callables.iter().map(|callable| callable.program).collect();
+        let entries = needed_entries(&description, &used, &callables);
+        let depths = Depths::new(&description, &entries, ptx, &mut note)?;
+        if !description.callables.is_empty() {
+            let unused = (0..description.callables.len()).filter(|index| !callables.contains(index));
+            let unused: Vec<_> = unused.map(|index| description.callables[index].entry.function).collect();
+            note(
+                "callables",
+                format!("{} of {}", callables.len(), description.callables.len()),
+                if unused.is_empty() {
+                    "the scene has records of all".into()
+                } else {
+                    format!("left out, since the scene has no record of them: {}", unused.join(", "))
+                },
+            );
+        }
+        let (exceptions, why) = exceptions(&description, &entries, &depths, ptx);
+        note("exceptions", exceptions.to_string(), why);
 
         for value in &bound {
             note("bound value", format!("{} = {}", value.field.name, value.value()), "bound by the host".into());
@@ -141,7 +175,18 @@ impl Plan {
             kept
         });
 
-        Ok(Self { description, kinds, graph, graph_depth: depth + 1, attribute_words, trace_depth, bound, ptx, notes })
+        Ok(Self {
+            description,
+            kinds,
+            graph,
+            graph_depth: depth + 1,
+            attribute_words,
+            depths,
+            exceptions,
+            bound,
+            ptx,
+            notes,
+        })
     }
 
     pub fn explanation(&self) -> Explanation {
@@ -165,112 +210,39 @@ fn check_layout(description: &PipelineDescription, text: &str) -> Result<()> {
     }
 }
 
-/// A program that a launch can reach, and for which ray type it runs (none for ray generation).
-struct Reached {
-    name: &'static str,
-    ray: Option<usize>,
-}
-
-fn needed_entries(description: &PipelineDescription, used: &BTreeSet<usize>) -> Vec<Reached> {
-    let mut entries: Vec<Reached> = Vec::new();
-    let mut add = |name, ray| {
-        if !entries.iter().any(|e| e.name == name && e.ray == ray) {
-            entries.push(Reached { name, ray });
-        }
-    };
-    for raygen in description.raygen {
-        add(raygen.entry.name, None);
+/// Which exceptions are raised, and why.
+fn exceptions(
+    description: &PipelineDescription,
+    entries: &[Reached],
+    depths: &Depths,
+    ptx: Option<&str>,
+) -> (Exceptions, String) {
+    let declared = description.exceptions;
+    if !declared.are_declared() {
+        return (Exceptions::default(), "the pipeline declares none".into());
     }
-    for (ray, of) in description.rays.iter().enumerate() {
-        if let Some(miss) = of.miss {
-            add(miss.entry.name, Some(ray));
-        }
-        for &group in used {
-            let programs = description.hitgroups[group].rays[ray];
-            for entry in [programs.closesthit, programs.anyhit, programs.intersection].into_iter().flatten() {
-                add(entry.name, Some(ray));
-            }
-        }
+    let throws = |text| reached_entries(entries, text).any(|entry| entry.text.contains("_optix_throw_exception"));
+    let user = declared.throws.is_some() && ptx.is_none_or(throws);
+    let exceptions = Exceptions { stack_overflow: true, trace_depth: depths.trace_is_a_promise, user };
+    let mut reasons = Vec::new();
+    if !depths.trace_is_a_promise {
+        reasons.push("trace calls can't nest deeper than the compiled programs do");
     }
-    entries
-}
-
-/// How deep trace calls nest: the longest path from ray generation over ray types, where a ray type leads to those that its
-/// programs trace.
-fn trace_depth(description: &PipelineDescription, entries: &[Reached], ptx: Option<&str>) -> Result<(u32, String)> {
-    let error = |what: String| Error::Pipeline { pipeline: description.name, what };
-    if let Some(depth) = description.trace_depth {
-        return match depth {
-            0..=MAX_TRACE_DEPTH => Ok((depth, "stated in the pipeline's declaration".into())),
-            _ => Err(error(format!("trace_depth {depth} is more than {MAX_TRACE_DEPTH} (guide 12)"))),
-        };
+    match declared.throws {
+        None => reasons.push("programs throw none"),
+        Some(_) if !user => reasons.push("no program that is reached throws"),
+        Some(_) => {}
     }
-    let Some(text) = ptx else {
-        return Ok((MAX_TRACE_DEPTH, "the most there is: without PTX it is not known which programs trace".into()));
-    };
-    let by_name: BTreeMap<_, _> = ptx::entries(text).into_iter().map(|e| (e.name, e)).collect();
-    let rays = description.rays.len();
-    let mut leads_to = vec![BTreeSet::new(); rays];
-    let mut roots = BTreeSet::new();
-    for reached in entries {
-        let entry = by_name.get(reached.name).ok_or_else(|| {
-            error(format!(
-                "the PTX has no entry {}: it is of another build or crate than the host's pipeline",
-                reached.name
-            ))
-        })?;
-        let types = ptx::traced_types(entry).ok_or_else(|| {
-            error(format!(
-                "the payload type of a trace call in {} is not a constant, so the trace depth is not known: \
-                 state `trace_depth: N` in `pipeline!`",
-                reached.name
-            ))
-        })?;
-        let traced = types.into_iter().map(|mask| mask.trailing_zeros() as usize).filter(|&r| r < rays);
-        match reached.ray {
-            None => roots.extend(traced),
-            Some(ray) => leads_to[ray].extend(traced),
-        }
+    match declared.program {
+        Some(_) => reasons.push("told to the exception program"),
+        None => reasons.push("there is no exception program, so the first five of a launch are reported"),
     }
-    match longest(&leads_to, &roots, &mut vec![false; rays]) {
-        Some(depth) => Ok((depth, "the longest chain of trace calls in the compiled programs".into())),
-        None => Err(error(
-            "its programs trace rays recursively, so nothing bounds the trace depth: state `trace_depth: N` in `pipeline!`"
-                .into(),
-        )),
-    }
-}
-
-/// The longest path from any of `from`; `None` if there is a cycle.
-fn longest(leads_to: &[BTreeSet<usize>], from: &BTreeSet<usize>, on_path: &mut Vec<bool>) -> Option<u32> {
-    let mut depth = 0;
-    for &ray in from {
-        if on_path[ray] {
-            return None;
-        }
-        on_path[ray] = true;
-        depth = depth.max(1 + longest(leads_to, &leads_to[ray], on_path)?);
-        on_path[ray] = false;
-    }
-    Some(depth)
+    (exceptions, reasons.join("; "))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn longest_chain_of_ray_types() {
-        let set = |items: &[usize]| items.iter().copied().collect::<BTreeSet<_>>();
-        let path = |edges: &[&[usize]], roots: &[usize]| {
-            let edges: Vec<_> = edges.iter().map(|e| set(e)).collect();
-            longest(&edges, &set(roots), &mut vec![false; edges.len()])
-        };
-        assert_eq!(path(&[&[1], &[]], &[0]), Some(2));
-        assert_eq!(path(&[&[], &[]], &[0, 1]), Some(1));
-        assert_eq!(path(&[&[1], &[0]], &[0]), None);
-        assert_eq!(path(&[&[1], &[1]], &[]), Some(0));
-    }
 
     #[test]
     fn graphs_by_depth() {

@@ -4,12 +4,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One entry of a PTX text.
+/// One entry of a PTX text: a program that OptiX starts, or a callable, which is a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PtxEntry<'a> {
     /// Its name.
     pub name: &'a str,
-    /// From `.visible .entry` to its closing brace.
+    /// From `.visible` to its closing brace.
     pub text: &'a str,
     /// Where it begins.
     pub begin: usize,
@@ -22,18 +22,32 @@ pub struct PtxEntry<'a> {
 /// assert_eq!(optix_host::pipeline::ptx::entries(ptx)[0].name, "__raygen__a");
 /// ```
 pub fn entries(ptx: &str) -> Vec<PtxEntry<'_>> {
-    const HEAD: &str = ".visible .entry ";
     let mut entries = Vec::new();
     let mut at = 0;
-    while let Some(found) = ptx[at..].find(HEAD) {
+    while let Some(found) = ptx[at..].find(".visible .") {
         let begin = at + found;
-        let name_begin = begin + HEAD.len();
-        let name_end = ptx[name_begin..].find('(').map_or(ptx.len(), |n| name_begin + n);
-        let end = body_end(ptx, name_end);
-        entries.push(PtxEntry { name: ptx[name_begin..name_end].trim(), text: &ptx[begin..end], begin });
-        at = end;
+        at = begin + 1;
+        // A declaration ends before any brace.
+        let head_end = ptx[begin..].find(['{', ';']).map_or(ptx.len(), |end| begin + end);
+        let name = if ptx[head_end..].starts_with('{') { entry_name(&ptx[begin..head_end]) } else { None };
+        if let Some(name) = name {
+            at = body_end(ptx, head_end);
+            entries.push(PtxEntry { name, text: &ptx[begin..at], begin });
+        }
     }
     entries
+}
+
+/// The name of the entry or callable with this head.
+fn entry_name(head: &str) -> Option<&str> {
+    if let Some(rest) = head.strip_prefix(".visible .entry ") {
+        return Some(rest.split('(').next()?.trim());
+    }
+    let rest = head.strip_prefix(".visible .func")?.trim_start();
+    // The result comes before the name.
+    let rest = if rest.starts_with('(') { rest.split_once(')')?.1.trim_start() } else { rest };
+    let is_callable = rest.starts_with("__direct_callable__") || rest.starts_with("__continuation_callable__");
+    is_callable.then_some(rest.split('(').next()?.trim())
 }
 
 /// Behind the closing brace of the first block after `from`. Inline assembly opens blocks of its own inside.
@@ -134,14 +148,29 @@ mod tests {
 \tcall (%r5), _optix_trace_typed_32, (%r2, %rd1, f0);
 \tret;
 }
+.visible .func  (.param .b32 func_retval0) helper(
+\t.param .b32 helper_param_0
+)
+;
+.visible .func  (.param .align 4 .b8 func_retval0[12]) __direct_callable__c(
+\t.param .b32 __direct_callable__c_param_0
+)
+{
+\tret;
+}
 ";
 
     #[test]
     fn entries_end_at_their_own_brace() {
         let found = entries(PTX);
-        assert_eq!(found.iter().map(|e| e.name).collect::<Vec<_>>(), ["__raygen__a", "__miss__b"]);
+        assert_eq!(
+            found.iter().map(|e| e.name).collect::<Vec<_>>(),
+            ["__raygen__a", "__miss__b", "__direct_callable__c"]
+        );
         assert!(found[0].text.ends_with("ret;\n}"));
         let rest = without_entries(PTX, |name| name != "__raygen__a");
+        let without_callable = without_entries(PTX, |name| !name.starts_with("__direct"));
+        assert!(without_callable.trim_end().ends_with("helper_param_0\n)\n;"), "{without_callable}");
         assert!(rest.contains("p_layout") && rest.contains("__miss__b") && !rest.contains("__raygen__a()"));
     }
 

@@ -99,6 +99,10 @@ pub struct ShaderBindingTable {
     pub miss: Section<usize>,
     /// Records of materials, per ray type.
     pub hit: Section<HitProgram>,
+    /// Records of callables, as the scene made them; which program of the pipeline each is for.
+    pub callables: Section<usize>,
+    /// The record of the exception program, if there is one.
+    pub exception: Section<()>,
 }
 
 impl ShaderBindingTable {
@@ -123,10 +127,16 @@ impl ShaderBindingTable {
                 return Err(missing("ray-generation", function, record, format!("scene.raygen::<{function}>(..)")));
             }
         }
+        if let (None, Some(program)) = (&scene.exception.bytes, description.exceptions.program) {
+            let (function, record) = (program.entry.function, program.record.name);
+            return Err(missing("exception", function, record, "scene.exception(..)".into()));
+        }
         let data = |bytes: &'_ Option<Vec<u8>>| -> Vec<u8> { bytes.clone().unwrap_or_default() };
         let raygen: Vec<_> = scene.raygen.iter().map(|r| data(&r.bytes)).collect();
         let miss: Vec<_> = scene.miss.iter().map(|r| data(&r.bytes)).collect();
         let materials: Vec<_> = scene.materials.iter().map(|m| data(&m.record.bytes)).collect();
+        let callables: Vec<_> = scene.callables.iter().map(|c| (c.program, data(&c.record.bytes))).collect();
+        let exception = description.exceptions.program.map(|_| data(&scene.exception.bytes));
         let rays = description.rays.len();
         Ok(Self {
             raygen: Section::new(raygen.iter().enumerate().map(|(i, bytes)| (i, &bytes[..]))),
@@ -135,6 +145,8 @@ impl ShaderBindingTable {
                 let bytes = &materials[material as usize][..];
                 (0..rays).map(move |ray| (HitProgram { group: group as usize, ray }, bytes))
             })),
+            callables: Section::new(callables.iter().map(|(program, bytes)| (*program, &bytes[..]))),
+            exception: Section::new(exception.iter().map(|bytes| ((), &bytes[..]))),
         })
     }
 }

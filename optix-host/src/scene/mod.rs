@@ -1,11 +1,13 @@
 //! Scenes: geometry, materials and the acceleration structures that bring them together. Knows no backend.
 
 mod accel;
+mod callable;
 mod geometry;
 mod material;
 
 pub(crate) use accel::AccelShared;
 pub use accel::{Accel, GasBuilder, GasMember, IasBuilder, Instance, InstanceFlags};
+pub(crate) use callable::{CallableShared, CallableState};
 pub(crate) use geometry::GeometryData;
 pub use geometry::{Aabb, Boxes, Geometry, GeometryError, TriangleMesh};
 pub use material::Material;
@@ -15,7 +17,7 @@ use crate::{Device, Error, Result};
 use optix_device_rs::data::DeviceData;
 use optix_device_rs::host::{GeometryKind, KeepAlive, Twin};
 use optix_device_rs::payload::Payload;
-use optix_device_rs::pipeline::{HasRay, HasRayGen, Pipeline};
+use optix_device_rs::pipeline::{HasException, HasRay, HasRayGen, Pipeline};
 use optix_device_rs::record::SbtRecord;
 use std::any::Any;
 use std::collections::HashMap;
@@ -43,6 +45,10 @@ pub(crate) struct SceneState {
     pub miss: Vec<RecordData>,
     /// Per ray-generation program.
     pub raygen: Vec<RecordData>,
+    /// Records of callables, in the order of the table.
+    pub callables: Vec<CallableState>,
+    /// Of the exception program.
+    pub exception: RecordData,
     pub usage: Usage,
 }
 
@@ -81,6 +87,8 @@ impl<P: Pipeline> Scene<P> {
                 slots_of: HashMap::new(),
                 miss: description.rays.iter().map(|ray| record(ray.miss.map_or(0, |m| m.record.size))).collect(),
                 raygen: description.raygen.iter().map(|rg| record(rg.record.size)).collect(),
+                callables: Vec::new(),
+                exception: record(description.exceptions.program.map_or(0, |program| program.record.size)),
                 usage: Usage::default(),
             },
             pipeline: PhantomData,
@@ -105,6 +113,15 @@ impl<P: Pipeline> Scene<P> {
         Ok(())
     }
 
+    /// Gives the record of the exception program.
+    pub fn exception(&mut self, record: <P::Record as SbtRecord>::Host) -> Result<()>
+    where
+        P: HasException,
+    {
+        self.state.exception = self.lower(&record)?;
+        Ok(())
+    }
+
     /// A record's device bytes, after a check that what it points to is on this scene's device.
     pub(crate) fn lower<T: Twin>(&self, record: &T) -> Result<RecordData> {
         let mut keep = KeepAlive::default();
@@ -113,6 +130,10 @@ impl<P: Pipeline> Scene<P> {
             return Err(Error::Scene(format!(
                 "a record holds a {what} of another device; make it with this scene's device"
             )));
+        }
+        let shared = keep.owners().iter().filter_map(|owner| owner.downcast_ref::<CallableShared>());
+        if shared.into_iter().any(|callable| callable.scene != self.state.id) {
+            return Err(Error::Scene("a record holds a callable of another scene; make it with this scene".into()));
         }
         let mut bytes = vec![0; size_of::<T::Device>()];
         device_data.write_to(&mut bytes);

@@ -18,19 +18,23 @@ use std::time::{Duration, Instant};
 type Macro = (&'static str, fn(TokenStream, TokenStream) -> TokenStream);
 
 /// Every macro of this crate.
-const MACROS: [Macro; 13] = [
+const MACROS: [Macro; 17] = [
     ("Payload", |_, item| crate::support::derive(item, crate::payload::derive)),
     ("SbtRecord", |_, item| crate::support::derive(item, crate::record::derive)),
     ("DeviceData", |_, item| crate::support::derive(item, crate::data::derive)),
     ("Element", |_, item| crate::support::derive(item, crate::element::derive)),
     ("Words", |_, item| crate::support::derive(item, crate::words::derive_words)),
     ("Attributes", |_, item| crate::support::derive(item, crate::words::derive_attributes)),
+    ("UserException", |_, item| crate::support::derive(item, crate::exception::derive)),
     ("launch_params", crate::params::expand),
     ("raygen", |arguments, item| crate::program::expand(Kind::RayGen, arguments, item)),
     ("miss", |arguments, item| crate::program::expand(Kind::Miss, arguments, item)),
     ("closesthit", |arguments, item| crate::program::expand(Kind::ClosestHit, arguments, item)),
     ("anyhit", |arguments, item| crate::program::expand(Kind::AnyHit, arguments, item)),
     ("intersection", |arguments, item| crate::program::expand(Kind::Intersection, arguments, item)),
+    ("direct_callable", |arguments, item| crate::program::expand(Kind::DirectCallable, arguments, item)),
+    ("continuation_callable", |arguments, item| crate::program::expand(Kind::ContinuationCallable, arguments, item)),
+    ("exception", |arguments, item| crate::program::expand(Kind::Exception, arguments, item)),
     ("pipeline", |_, item| crate::pipeline::expand(item)),
 ];
 

@@ -32,9 +32,10 @@ impl Seeds {
                     let name = makro.mac.path.segments.last().map(|s| s.ident.to_string());
                     self.add(&name.unwrap_or_default(), TokenStream::new(), makro.mac.tokens);
                 }
-                syn::Item::Struct(item) => {
+                syn::Item::Struct(syn::ItemStruct { ref attrs, .. })
+                | syn::Item::Enum(syn::ItemEnum { ref attrs, .. }) => {
                     let tokens = item.to_token_stream();
-                    for attribute in &item.attrs {
+                    for attribute in attrs {
                         self.attribute(attribute, &tokens);
                     }
                 }

@@ -9,6 +9,8 @@ use syn::Error;
 const MAX_RAY_TYPES: usize = 8;
 /// The greatest trace depth (guide 6.7).
 const MAX_TRACE_DEPTH: u32 = 31;
+/// OptiX has no limit but the stack; this is ours, that of the executor's host.
+const MAX_CALLABLE_DEPTH: u32 = 31;
 
 pub fn check(pipeline: &Pipeline, errors: &mut Errors) {
     if pipeline.params.is_none() {
@@ -29,17 +31,35 @@ pub fn check(pipeline: &Pipeline, errors: &mut Errors) {
             ),
         );
     }
-    for (i, program) in pipeline.raygen.iter().enumerate() {
-        if pipeline.raygen[..i].iter().any(|p| text(p) == text(program)) {
-            errors.at(program, format!("ray-generation program `{}` is listed twice", path(program)));
-        }
-    }
+    listed_once(&pipeline.raygen, "ray-generation program", "", errors);
+    let records = ": a scene makes as many records of it as there are uses, each with its own data";
+    listed_once(&pipeline.direct_callables, "direct callable", records, errors);
+    listed_once(&pipeline.continuation_callables, "continuation callable", records, errors);
     rays(pipeline, errors);
     groups(pipeline, errors);
     if let Some(depth) = &pipeline.trace_depth {
         match depth.base10_parse::<u32>() {
             Ok(0..=MAX_TRACE_DEPTH) => {}
             _ => errors.at(depth, format!("the trace depth is a number from 0 to {MAX_TRACE_DEPTH} (guide 6.7)")),
+        }
+    }
+    if let Some(depth) = &pipeline.callable_depth
+        && !matches!(depth.base10_parse::<u32>(), Ok(1..=MAX_CALLABLE_DEPTH))
+    {
+        errors.at(
+            depth,
+            format!(
+                "the depth of callables that call each other is a number from 1 to {MAX_CALLABLE_DEPTH}: each level takes \
+                 stack of every launch index (guide 6.8)"
+            ),
+        );
+    }
+}
+
+fn listed_once(programs: &[syn::Path], what: &str, remedy: &str, errors: &mut Errors) {
+    for (i, program) in programs.iter().enumerate() {
+        if programs[..i].iter().any(|p| text(p) == text(program)) {
+            errors.at(program, format!("{what} `{}` is listed twice{remedy}", path(program)));
         }
     }
 }

@@ -45,12 +45,22 @@ impl Entries<'_> {
         let body = format_ident!("{}", kind.attribute());
         let (run, span) = (of_program(krate, program, bound, "run"), program_span(program));
         let run = match kind {
-            Kind::RayGen => quote_spanned!(span=> #run(&__context, __record)),
+            Kind::RayGen | Kind::Exception => quote_spanned!(span=> #run(&__context, __record)),
+            Kind::DirectCallable | Kind::ContinuationCallable => {
+                quote_spanned!(span=> #run(&__context, __record, __arguments))
+            }
             _ => quote_spanned!(span=> #run(&__context, __record, __input)),
         };
         let enter = quote!(#krate::program::entry::#body::<#types>);
+        let signature = of_program(krate, program, bound, "Signature");
         let call = match kind {
-            Kind::RayGen => quote! {
+            Kind::DirectCallable | Kind::ContinuationCallable => quote! {
+                let __arguments = unsafe { #krate::program::entry::arguments::<#signature>(&__cx) };
+                let (__context, __record) = unsafe { #enter(&__cx) };
+                #krate::program::entry::result::<#signature>(&__cx, #run);
+                #krate::ray::Decision::Accept
+            },
+            Kind::RayGen | Kind::Exception => quote! {
                 let (__context, __record) = unsafe { #enter(&__cx) };
                 #run;
                 #krate::ray::Decision::Accept
@@ -71,12 +81,31 @@ impl Entries<'_> {
                 let __cx = unsafe { #krate::machine::Cx::new(__frame) };
                 #call
             }
-            // SAFETY: OptiX calls it as a program of its kind, with the record and payload of its hit group or ray type.
-            #[cfg(target_arch = "nvptx64")]
-            #[unsafe(no_mangle)]
-            pub unsafe extern "ptx-kernel" fn #device() {
-                let __cx = unsafe { #krate::machine::Cx::new() };
-                let _ = { #call };
+        });
+        self.items.extend(if kind.is_callable() {
+            quote! {
+                // SAFETY: `Cx::call_direct` and its kin call it, by this type, with a record of its own.
+                #[cfg(target_arch = "nvptx64")]
+                #[allow(improper_ctypes_definitions)]
+                #[unsafe(no_mangle)]
+                pub unsafe extern "C" fn #device(
+                    __arguments: #krate::callable::Packed<<#signature as #krate::callable::Signature>::Arguments>,
+                ) -> #krate::callable::Packed<<#signature as #krate::callable::Signature>::Result> {
+                    let __cx = unsafe { #krate::machine::Cx::new() };
+                    let (__context, __record) = unsafe { #enter(&__cx) };
+                    let __arguments = __arguments.0;
+                    #krate::callable::Packed(#run)
+                }
+            }
+        } else {
+            quote! {
+                // SAFETY: OptiX calls it as a program of its kind, with the record and payload of its hit group or ray type.
+                #[cfg(target_arch = "nvptx64")]
+                #[unsafe(no_mangle)]
+                pub unsafe extern "ptx-kernel" fn #device() {
+                    let __cx = unsafe { #krate::machine::Cx::new() };
+                    let _ = { #call };
+                }
             }
         });
         let function = path(program);
@@ -190,8 +219,12 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
         groups.push(describe_group(pipeline, group, &mut entries, &mut impls));
     }
 
+    let callables = callables(pipeline, &mut entries, &mut impls);
+    let exceptions = exceptions(pipeline, &mut entries, &mut impls);
+    let exception = exception_type(pipeline);
     let ray_types = pipeline.rays.len() as u32;
     let depth = option(pipeline.trace_depth.as_ref().map(|depth| depth.to_token_stream()));
+    let callable_depth = option(pipeline.callable_depth.as_ref().map(|depth| depth.to_token_stream()));
     let facts = format_ident!("__optix_facts_{}", entries.place);
     let items = entries.items;
     quote! {
@@ -202,6 +235,7 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
             #[automatically_derived]
             unsafe impl #krate::pipeline::Pipeline for #ident {
                 type Params = #params;
+                type Exception = #exception;
                 const RAY_TYPES: ::core::primitive::u32 = #ray_types;
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
@@ -210,7 +244,10 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
                     raygen: &[#(#raygen),*],
                     rays: &[#(#rays),*],
                     hitgroups: &[#(#groups),*],
+                    callables: &[#(#callables),*],
+                    exceptions: #exceptions,
                     trace_depth: #depth,
+                    callable_depth: #callable_depth,
                 };
             }
             #impls
@@ -224,6 +261,88 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
             }
         };
     }
+}
+
+/// The callables' descriptions, with their entries and impls.
+fn callables(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenStream) -> Vec<TokenStream> {
+    let (ident, krate) = (&pipeline.ident, &pipeline.krate);
+    let direct = pipeline.direct_callables.iter().map(|program| (Kind::DirectCallable, "Direct", program));
+    let continuation =
+        pipeline.continuation_callables.iter().map(|program| (Kind::ContinuationCallable, "Continuation", program));
+    let describe = |(i, (kind, word, program)): (usize, (Kind, &str, &Path))| {
+        let (index, program_trait, word) = (i as u32, kind.program_trait(), format_ident!("{word}"));
+        let bound = quote!(#program_trait<#ident>);
+        let of = |item: &str| of_program(krate, program, &bound, item);
+        let (record, signature) = (of("Record"), of("Signature"));
+        let (program_name, span) = (path(program), program_span(program));
+        let there = moved(krate, span);
+        impls.extend(quote! {
+            // SAFETY: description and numbers are made from one list.
+            #[automatically_derived]
+            unsafe impl #krate::pipeline::HasCallable<#program> for #ident {
+                const INDEX: ::core::primitive::u32 = #index;
+                type Record = #record;
+                type Signature = #signature;
+                type Kind = #krate::callable::#word;
+            }
+        });
+        impls.extend(quote_spanned! {span=>
+            const _: () = #there::check::callable::<#signature>(#program_name);
+        });
+        let entry = entries.add(kind, program, &quote!(#ident, _), &bound, &[]);
+        quote! {
+            #krate::host::CallableDescription::of::<#record, #signature, #krate::callable::#word>(#entry)
+        }
+    };
+    direct.chain(continuation).enumerate().map(describe).collect()
+}
+
+/// What the pipeline's programs throw.
+fn exception_type(pipeline: &Pipeline) -> TokenStream {
+    let krate = &pipeline.krate;
+    pipeline.throws.as_ref().map_or(quote!(#krate::exception::NoException), ToTokens::to_token_stream)
+}
+
+/// The impl that lets programs throw.
+fn throws(pipeline: &Pipeline) -> Option<TokenStream> {
+    let (ident, krate) = (&pipeline.ident, &pipeline.krate);
+    pipeline.throws.as_ref().map(|exception| {
+        quote! {
+            // SAFETY: the description is made from the same declaration.
+            #[automatically_derived]
+            unsafe impl #krate::pipeline::Throws<#exception> for #ident {}
+        }
+    })
+}
+
+/// The exceptions' description, with the entry and impls.
+fn exceptions(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenStream) -> TokenStream {
+    let (ident, krate) = (&pipeline.ident, &pipeline.krate);
+    impls.extend(throws(pipeline));
+    let (throws, variants) = match &pipeline.throws {
+        Some(exception) => {
+            let span = place_of(exception);
+            let krate = moved(krate, span);
+            let of = quote_spanned!(span=> <#exception as #krate::exception::UserException>);
+            (option(Some(quote!(#of::NAME))), quote!(#of::VARIANTS))
+        }
+        None => (option(None), quote!(&[])),
+    };
+    let program = pipeline.exception.as_ref().map(|program| {
+        let bound = quote!(ExceptionProgram<#ident>);
+        let record = of_program(krate, program, &bound, "Record");
+        impls.extend(quote! {
+            // SAFETY: description and record are made from one declaration.
+            #[automatically_derived]
+            unsafe impl #krate::pipeline::HasException for #ident {
+                type Record = #record;
+            }
+        });
+        let entry = entries.add(Kind::Exception, program, &quote!(#ident, _), &bound, &[]);
+        quote!(#krate::host::ProgramDescription { entry: #entry, record: #krate::host::RecordLayout::of::<#record>() })
+    });
+    let program = option(program);
+    quote!(#krate::host::ExceptionsDescription { throws: #throws, variants: #variants, program: #program })
 }
 
 /// A hit group's description, with its entries and checks.
@@ -355,7 +474,7 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
     let Some(params) = params else {
         return structure;
     };
-    let pipeline_name = name(ident);
+    let (pipeline_name, exception, throws) = (name(ident), exception_type(pipeline), throws(pipeline));
     let mut seen = Vec::new();
     let rays = pipeline.rays.iter().filter(|ray| {
         let text = super::check::text(&ray.payload);
@@ -382,6 +501,7 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
             #[automatically_derived]
             unsafe impl #krate::pipeline::Pipeline for #ident {
                 type Params = #params;
+                type Exception = #exception;
                 const RAY_TYPES: ::core::primitive::u32 = 0;
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
@@ -390,10 +510,18 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
                     raygen: &[],
                     rays: &[],
                     hitgroups: &[],
+                    callables: &[],
+                    exceptions: #krate::host::ExceptionsDescription {
+                        throws: ::core::option::Option::None,
+                        variants: &[],
+                        program: ::core::option::Option::None,
+                    },
                     trace_depth: ::core::option::Option::None,
+                    callable_depth: ::core::option::Option::None,
                 };
             }
             #(#rays)*
+            #throws
         };
     }
 }

@@ -17,7 +17,12 @@ pub struct Pipeline {
     pub raygen: Vec<Path>,
     pub rays: Vec<Ray>,
     pub groups: Vec<Group>,
+    pub direct_callables: Vec<Path>,
+    pub continuation_callables: Vec<Path>,
+    pub throws: Option<Type>,
+    pub exception: Option<Path>,
     pub trace_depth: Option<LitInt>,
+    pub callable_depth: Option<LitInt>,
 }
 
 /// `Radiance { miss: sky }`.
@@ -64,10 +69,24 @@ impl Programs {
             Kind::ClosestHit => self.closesthit.as_ref(),
             Kind::AnyHit => self.anyhit.as_ref(),
             Kind::Intersection => self.intersection.as_ref(),
-            Kind::RayGen | Kind::Miss => None,
+            _ => None,
         }
     }
 }
+
+/// The parts of a pipeline, besides `crate`.
+const PARTS: [&str; 10] = [
+    "params",
+    "raygen",
+    "rays",
+    "hitgroups",
+    "direct_callables",
+    "continuation_callables",
+    "throws",
+    "exception",
+    "trace_depth",
+    "callable_depth",
+];
 
 const EXAMPLE: &str =
     "`pipeline! { pub struct PathTracer { params: Frame, raygen: [camera], rays: { .. }, hitgroups: { .. } } }`";
@@ -103,7 +122,12 @@ fn pipeline(input: ParseStream<'_>, errors: &mut Errors) -> Result<Pipeline> {
         raygen: Vec::new(),
         rays: Vec::new(),
         groups: Vec::new(),
+        direct_callables: Vec::new(),
+        continuation_callables: Vec::new(),
+        throws: None,
+        exception: None,
         trace_depth: None,
+        callable_depth: None,
     };
     let content;
     syn::braced!(content in input);
@@ -111,13 +135,14 @@ fn pipeline(input: ParseStream<'_>, errors: &mut Errors) -> Result<Pipeline> {
     list(&content, errors, |input, errors| {
         let key = input.call(Ident::parse_any)?;
         let word = key.to_string();
-        if !["params", "raygen", "rays", "hitgroups", "trace_depth", "crate"].contains(&word.as_str()) {
+        if word != "crate" && !PARTS.contains(&word.as_str()) {
             return Err(Error::new(
                 key.span(),
                 format!(
-                    "a pipeline has no `{word}`{}: it has `params`, `raygen`, `rays`, `hitgroups` and, where it is known \
-                     better than from the programs, `trace_depth`",
-                    guess(&word, &["params", "raygen", "rays", "hitgroups", "trace_depth"])
+                    "a pipeline has no `{word}`{}: it has `params`, `raygen`, `rays`, `hitgroups`, and where there are any \
+                     `direct_callables`, `continuation_callables`, `throws` and `exception`; where they are known better \
+                     than from the programs, `trace_depth` and `callable_depth`",
+                    guess(&word, &PARTS)
                 ),
             ));
         }
@@ -130,16 +155,30 @@ fn pipeline(input: ParseStream<'_>, errors: &mut Errors) -> Result<Pipeline> {
             "params" => pipeline.params = Some(input.parse()?),
             "trace_depth" => pipeline.trace_depth = Some(input.parse()?),
             "crate" => pipeline.krate = crate_path(input)?,
-            "raygen" => {
-                if !input.peek(syn::token::Bracket) {
-                    return Err(input.error("expected the ray-generation programs in brackets: `raygen: [camera]`"));
+            "callable_depth" => pipeline.callable_depth = Some(input.parse()?),
+            "throws" => pipeline.throws = Some(input.parse()?),
+            "exception" => {
+                if input.peek(syn::token::Bracket) {
+                    return Err(input.error("a pipeline has one exception program: write its name without brackets"));
                 }
-                let content;
-                syn::bracketed!(content in input);
-                list(&content, errors, |input, _| {
-                    pipeline.raygen.push(program(input)?);
-                    Ok(())
-                });
+                pipeline.exception = Some(program(input)?);
+            }
+            "raygen" => {
+                programs_of(input, "the ray-generation programs", "raygen: [camera]", &mut pipeline.raygen, errors)?
+            }
+            "direct_callables" => {
+                let example = "direct_callables: [wood, marble]";
+                programs_of(input, "the direct callables", example, &mut pipeline.direct_callables, errors)?;
+            }
+            "continuation_callables" => {
+                let example = "continuation_callables: [mirror]";
+                programs_of(
+                    input,
+                    "the continuation callables",
+                    example,
+                    &mut pipeline.continuation_callables,
+                    errors,
+                )?;
             }
             "rays" => {
                 if !input.peek(syn::token::Brace) {
@@ -197,6 +236,26 @@ fn list(input: ParseStream<'_>, errors: &mut Errors, mut item: impl FnMut(ParseS
             }
         }
     }
+}
+
+/// Programs in brackets.
+fn programs_of(
+    input: ParseStream<'_>,
+    what: &str,
+    example: &str,
+    programs: &mut Vec<Path>,
+    errors: &mut Errors,
+) -> Result<()> {
+    if !input.peek(syn::token::Bracket) {
+        return Err(input.error(format!("expected {what} in brackets: `{example}`")));
+    }
+    let content;
+    syn::bracketed!(content in input);
+    list(&content, errors, |input, _| {
+        programs.push(program(input)?);
+        Ok(())
+    });
+    Ok(())
 }
 
 /// The path of a program.

@@ -1,6 +1,6 @@
 //! What must hold of a program's function, whatever its signature says.
 
-use super::model::Kind;
+use super::kind::Kind;
 use crate::support::{Errors, mentions, ungroup};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;

@@ -1,6 +1,7 @@
 //! The type that stands for a program, and its impl of the program trait.
 
-use super::model::{Kind, Program, Roles};
+use super::kind::{Kind, Roles};
+use super::model::Program;
 use crate::support::{allow, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
@@ -15,16 +16,11 @@ fn marker(ident: &Ident) -> TokenStream {
     }
 }
 
-/// The trait for the kind.
-fn program_trait(kind: Kind) -> Ident {
-    format_ident!("{}Program", kind.context())
-}
-
 pub fn emit(program: &Program) -> TokenStream {
     let Program { kind, krate, ident, pipeline, .. } = program;
     let (marker, allow) = (marker(ident), allow());
     let context = format_ident!("{}", kind.context());
-    let trait_there = Ident::new(&program_trait(*kind).to_string(), program.context_span);
+    let trait_there = Ident::new(&kind.program_trait().to_string(), program.context_span);
     let payload_trait = quote!(#krate::payload::Payload);
 
     let mut generics = without_defaults(&program.generics);
@@ -81,7 +77,7 @@ pub fn emit(program: &Program) -> TokenStream {
         quote_spanned!(span=> <#output as #krate::check::#returned<#payload>>::give)
     });
     let body = match (kind, give) {
-        (Kind::RayGen, _) => quote!(#call;),
+        (Kind::RayGen | Kind::Exception, _) => quote!(#call;),
         (Kind::AnyHit, Some(give)) => quote! {
             let (__decision, __part) = #call;
             (__decision, #give(__part))
@@ -101,7 +97,7 @@ pub fn emit(program: &Program) -> TokenStream {
     let hits = program.hits.as_ref();
     let record_type = quote_spanned!(place_of(&record)=> type Record = #record;);
     let (trait_arguments, context_arguments, assoc) = match kind {
-        Kind::RayGen => (quote!(#pipeline), quote!(#pipeline), record_type),
+        Kind::RayGen | Kind::Exception => (quote!(#pipeline), quote!(#pipeline), record_type),
         Kind::Miss => (quote!(#pipeline, #payload), quote!(#pipeline), record_type),
         Kind::ClosestHit | Kind::AnyHit => {
             (quote!(#pipeline, #hits, #record, #payload), quote!(#pipeline, #hits), TokenStream::new())
@@ -109,6 +105,7 @@ pub fn emit(program: &Program) -> TokenStream {
         Kind::Intersection => {
             (quote!(#pipeline, #record, #payload), quote!(#pipeline, #hits), quote!(type Attributes = #hits;))
         }
+        Kind::DirectCallable | Kind::ContinuationCallable => return emit_callable(program),
     };
     let (input, output) = match kind.roles() {
         None => (TokenStream::new(), TokenStream::new()),
@@ -142,6 +139,42 @@ pub fn emit(program: &Program) -> TokenStream {
     }
 }
 
+fn emit_callable(program: &Program) -> TokenStream {
+    let Program { kind, krate, ident, pipeline, arguments, result, .. } = program;
+    let (marker, allow) = (marker(ident), allow());
+    let context = format_ident!("{}", kind.context());
+    let record = program.record.as_ref().map_or(quote!(()), ToTokens::to_token_stream);
+    let record_argument = program.record.as_ref().map(|_| quote!(, __record));
+    let names: Vec<_> = (0..arguments.len()).map(|i| format_ident!("__argument_{i}")).collect();
+    let context_argument = quote_spanned!(program.context_span=> __cx);
+    let call = quote_spanned!(program.result_span=> #ident(#context_argument #record_argument #(, #names)*));
+    let generics = without_defaults(&program.generics);
+    let (impl_generics, _, where_clause) = generics.split_for_impl();
+    let trait_there = Ident::new(&kind.program_trait().to_string(), program.context_span);
+    let krate_there = moved(krate, program.context_span);
+    let implemented = quote_spanned!(program.context_span=> #krate_there::program::#trait_there<#pipeline>);
+    let record_type = quote_spanned!(place_of(&record)=> type Record = #record;);
+    quote! {
+        #marker
+        #allow
+        const _: () = {
+            #[automatically_derived]
+            impl #impl_generics #implemented for #ident #where_clause {
+                #record_type
+                type Signature = fn(#(#arguments),*) -> #result;
+                #[inline(always)]
+                fn run(
+                    __cx: &#krate::program::#context<#pipeline>,
+                    __record: &#record,
+                    (#(#names,)*): (#(#arguments,)*),
+                ) -> #result {
+                    #call
+                }
+            }
+        };
+    }
+}
+
 /// Type parameters of a function may have no defaults, nor may those of an impl.
 fn without_defaults(generics: &Generics) -> Generics {
     let mut generics = generics.clone();
@@ -155,7 +188,7 @@ fn without_defaults(generics: &Generics) -> Generics {
 
 /// For a program with errors: fits everywhere, so that nothing else is reported.
 pub fn fallback(kind: Kind, krate: &Path, ident: &Ident) -> TokenStream {
-    let (marker, trait_name, allow) = (marker(ident), program_trait(kind), allow());
+    let (marker, trait_name, allow) = (marker(ident), kind.program_trait(), allow());
     let pipeline = quote!(__P: #krate::pipeline::Pipeline);
     let hits = quote!(__A: #krate::attributes::Attributes);
     let record = quote!(__Rec: #krate::record::SbtRecord);
@@ -173,6 +206,26 @@ pub fn fallback(kind: Kind, krate: &Path, ident: &Ident) -> TokenStream {
             ),
             quote!((_: &#krate::program::RayGen<__P>, _: &())),
         ),
+        Kind::Exception => (
+            quote!(#pipeline),
+            quote!(__P),
+            quote!(
+                type Record = ();
+            ),
+            quote!((_: &#krate::program::Exception<__P>, _: &())),
+        ),
+        Kind::DirectCallable | Kind::ContinuationCallable => {
+            let context = format_ident!("{}", kind.context());
+            (
+                quote!(#pipeline),
+                quote!(__P),
+                quote!(
+                    type Record = ();
+                    type Signature = fn();
+                ),
+                quote!((_: &#krate::program::#context<__P>, _: &(), _: ())),
+            )
+        }
         Kind::Miss => {
             let (at, from) = (at("AtMiss"), at("FromMiss"));
             (

@@ -1,10 +1,13 @@
-//! `#[raygen]`, `#[miss]`, `#[closesthit]`, `#[anyhit]`, `#[intersection]`.
+//! `#[raygen]`, `#[miss]`, `#[closesthit]`, `#[anyhit]`, `#[intersection]`, `#[direct_callable]`, `#[continuation_callable]`,
+//! `#[exception]`.
 
+mod callable;
 mod check;
 mod emit;
+mod kind;
 mod model;
 
-pub use model::Kind;
+pub use kind::Kind;
 
 use crate::support::{Errors, crate_argument};
 use proc_macro2::TokenStream;

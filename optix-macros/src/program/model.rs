@@ -1,6 +1,8 @@
 //! What a program's signature says.
 
+use super::callable;
 use super::check::{calls_itself, is_for_the_call, names_its_payload, qualifiers};
+use super::kind::Kind;
 use crate::support::{Errors, cfg_of, mentions, place_of, ungroup};
 use proc_macro2::Span;
 use quote::ToTokens;
@@ -8,83 +10,6 @@ use syn::{
     Error, FnArg, GenericArgument, GenericParam, Generics, Ident, ItemFn, PatType, Path, PathArguments, Receiver,
     ReturnType, Type, TypeReference,
 };
-
-/// The kinds of program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    RayGen,
-    Miss,
-    ClosestHit,
-    AnyHit,
-    Intersection,
-}
-
-impl Kind {
-    pub const ALL: [Self; 5] = [Self::RayGen, Self::Miss, Self::ClosestHit, Self::AnyHit, Self::Intersection];
-
-    /// The attribute, and the key in `pipeline!`.
-    pub fn attribute(self) -> &'static str {
-        match self {
-            Self::RayGen => "raygen",
-            Self::Miss => "miss",
-            Self::ClosestHit => "closesthit",
-            Self::AnyHit => "anyhit",
-            Self::Intersection => "intersection",
-        }
-    }
-
-    /// The context type, and the suffix of payload parts.
-    pub fn context(self) -> &'static str {
-        match self {
-            Self::RayGen => "RayGen",
-            Self::Miss => "Miss",
-            Self::ClosestHit => "ClosestHit",
-            Self::AnyHit => "AnyHit",
-            Self::Intersection => "Intersection",
-        }
-    }
-
-    /// In a sentence.
-    pub fn phrase(self) -> &'static str {
-        match self {
-            Self::RayGen => "a ray-generation program",
-            Self::Miss => "a miss program",
-            Self::ClosestHit => "a closest-hit program",
-            Self::AnyHit => "an any-hit program",
-            Self::Intersection => "an intersection program",
-        }
-    }
-
-    /// Whether the context says what hits carry.
-    pub fn has_hits(self) -> bool {
-        matches!(self, Self::ClosestHit | Self::AnyHit | Self::Intersection)
-    }
-
-    /// The context as a user writes it.
-    pub fn context_example(self) -> &'static str {
-        match self {
-            Self::RayGen => "&RayGen<PathTracer>",
-            Self::Miss => "&Miss<PathTracer>",
-            Self::ClosestHit => "&ClosestHit<PathTracer, Triangles>",
-            Self::AnyHit => "&AnyHit<PathTracer, Triangles>",
-            Self::Intersection => "&Intersection<PathTracer, BallHit>",
-        }
-    }
-
-    /// A signature.
-    pub fn example(self) -> &'static str {
-        match self {
-            Self::RayGen => "`fn camera(rg: &RayGen<PathTracer>)`",
-            Self::Miss => "`fn sky(ms: &Miss<PathTracer>, record: &Sky, ray: RadianceAtMiss) -> RadianceFromMiss`",
-            Self::ClosestHit => {
-                "`fn lambert(hit: &ClosestHit<PathTracer, Triangles>, record: &Lambert, ray: RadianceAtClosestHit) -> \
-                 RadianceFromClosestHit`"
-            }
-            Self::AnyHit => "`fn alpha(hit: &AnyHit<PathTracer, Triangles>, record: &Leaf) -> Decision`",
-            Self::Intersection => "`fn ball(isect: &Intersection<PathTracer, BallHit>, record: &Ball)`",
-        }
-    }
-}
 
 /// A program.
 pub struct Program {
@@ -101,6 +26,10 @@ pub struct Program {
     pub input: Option<Type>,
     /// The payload part it returns.
     pub output: Option<Type>,
+    /// What the caller of a callable passes.
+    pub arguments: Vec<Type>,
+    /// What a callable returns.
+    pub result: Option<Type>,
     /// Where the context's type is.
     pub context_span: Span,
     /// Where the result's type is, else the name.
@@ -130,7 +59,7 @@ impl Program {
             let message = format!(
                 "{} takes its context first: `{}: {}`",
                 kind.phrase(),
-                argument_name(kind),
+                kind.argument_name(),
                 kind.context_example()
             );
             errors.push(Error::new(sig.paren_token.span.join(), message));
@@ -155,8 +84,13 @@ impl Program {
                 FnArg::Receiver(receiver) => errors.at(receiver, "a program has no `self`"),
             }
         }
-        let (record, input) = record_and_payload(kind, &typed, errors);
-        let output = output(kind, &sig.output, sig, errors);
+        let (record, input, output, arguments, result) = if kind.is_callable() {
+            let (record, arguments) = callable::arguments(kind, &typed, errors);
+            (record, None, None, arguments, callable::result(&sig.output, errors))
+        } else {
+            let (record, input) = record_and_payload(kind, &typed, errors);
+            (record, input, output(kind, &sig.output, sig, errors), Vec::new(), None)
+        };
         for part in [&input, &output].into_iter().flatten() {
             names_its_payload(part, &sig.generics, errors);
         }
@@ -192,6 +126,8 @@ impl Program {
             record,
             input,
             output,
+            arguments,
+            result,
             context_span,
             result_span,
             returns_unit_part,
@@ -230,8 +166,8 @@ impl Program {
                     format!(
                         "`pipeline!` can't tell what `{ident}` is: {} gets from it {}, as in `{}`; name the type",
                         self.kind.phrase(),
-                        known(self.kind),
-                        kind_generic(self.kind)
+                        self.kind.known(),
+                        self.kind.generic_example()
                     ),
                 );
             }
@@ -242,34 +178,6 @@ impl Program {
 /// Whether the function can only be in an impl or a trait, where there is no room for the type that stands for it.
 pub fn is_in_impl(sig: &syn::Signature) -> bool {
     sig.receiver().is_some() || mentions(sig.to_token_stream(), "Self")
-}
-
-/// What `pipeline!` knows about a program of the kind.
-fn known(kind: Kind) -> &'static str {
-    match kind {
-        Kind::RayGen | Kind::Miss => "its pipeline and nothing else",
-        Kind::ClosestHit | Kind::AnyHit => "its pipeline, what hits carry and the record",
-        Kind::Intersection => "its pipeline and the record",
-    }
-}
-
-fn kind_generic(kind: Kind) -> &'static str {
-    match kind {
-        Kind::RayGen => "&RayGen<P>",
-        Kind::Miss => "&Miss<P>",
-        Kind::ClosestHit => "&ClosestHit<P, A>, &R",
-        Kind::AnyHit => "&AnyHit<P, A>, &R",
-        Kind::Intersection => "&Intersection<P, BallHit>, &R",
-    }
-}
-
-fn argument_name(kind: Kind) -> &'static str {
-    match kind {
-        Kind::RayGen => "rg",
-        Kind::Miss => "ms",
-        Kind::ClosestHit | Kind::AnyHit => "hit",
-        Kind::Intersection => "isect",
-    }
 }
 
 /// Pipeline and hits of `&ClosestHit<PathTracer, Triangles>`.
@@ -293,7 +201,7 @@ fn context_type(kind: Kind, argument: &FnArg, errors: &mut Errors) -> Option<(Ty
         }
         Type::Reference(reference) => ungroup(&reference.elem),
         ty => {
-            let by_value = context_kind(ty) == Some(kind);
+            let by_value = Kind::of_context(ty) == Some(kind);
             let message = if by_value {
                 format!("{phrase} takes its context by reference: write `&` before it, as in `{example}`")
             } else {
@@ -303,7 +211,7 @@ fn context_type(kind: Kind, argument: &FnArg, errors: &mut Errors) -> Option<(Ty
             return None;
         }
     };
-    match context_kind(inner) {
+    match Kind::of_context(inner) {
         Some(found) if found == kind => {}
         Some(found) => {
             errors.at(
@@ -349,22 +257,15 @@ fn context_type(kind: Kind, argument: &FnArg, errors: &mut Errors) -> Option<(Ty
     }
 }
 
-/// Which context a type is by name.
-fn context_kind(ty: &Type) -> Option<Kind> {
-    let Type::Path(path) = ungroup(ty) else { return None };
-    let last = path.path.segments.last()?;
-    Kind::ALL.into_iter().find(|kind| last.ident == kind.context())
-}
-
 /// The arguments after the context: `record: &T`, then the payload part, each optional.
 fn record_and_payload(kind: Kind, arguments: &[&Type], errors: &mut Errors) -> (Option<Type>, Option<Type>) {
-    let most = if kind == Kind::RayGen { 1 } else { 2 };
+    let most = if kind.has_payload() { 2 } else { 1 };
     let example = kind.example();
     if let Some(extra) = arguments.get(most) {
-        let takes = if kind == Kind::RayGen {
-            "its context and a record"
-        } else {
+        let takes = if kind.has_payload() {
             "its context, a record and its part of the payload"
+        } else {
+            "its context and a record"
         };
         errors.at(extra, format!("{} takes {takes}, and nothing else: {example}", kind.phrase()));
         return (None, None);
@@ -387,9 +288,9 @@ fn record_and_payload(kind: Kind, arguments: &[&Type], errors: &mut Errors) -> (
                 errors.at(ty, message);
             }
             Type::ImplTrait(_) => errors.at(ty, "a program's arguments have named types: name its part of the payload"),
-            _ if kind == Kind::RayGen => errors.at(
+            _ if !kind.has_payload() => errors.at(
                 ty,
-                "a ray-generation program gets no payload; its record is taken by reference: `record: &T`",
+                format!("{} gets no payload; its record is taken by reference: `record: &T`", kind.phrase()),
             ),
             _ if i + 1 == arguments.len() => {
                 if is_part(kind, ty, true, errors) {
@@ -420,12 +321,10 @@ fn output(kind: Kind, output: &ReturnType, sig: &syn::Signature, errors: &mut Er
     };
     let unit = matches!(ty, Type::Tuple(tuple) if tuple.elems.is_empty());
     match kind {
-        Kind::RayGen => {
+        Kind::RayGen | Kind::Exception => {
             if !unit {
-                errors.at(
-                    ty,
-                    "a ray-generation program returns nothing: it writes its result through the launch parameters",
-                );
+                let phrase = kind.phrase();
+                errors.at(ty, format!("{phrase} returns nothing: it writes its result through the launch parameters"));
             }
             None
         }
@@ -509,29 +408,4 @@ fn is_part(kind: Kind, ty: &Type, received: bool, errors: &mut Errors) -> bool {
     };
     errors.at(ty, message);
     false
-}
-
-/// Names of a kind's payload parts: the associated types, and the traits of what may take their place.
-pub struct Roles {
-    /// `AtClosestHit`.
-    pub at: Ident,
-    /// `FromClosestHit`.
-    pub from: Ident,
-    /// `ReceivedByClosestHit`.
-    pub received: Ident,
-    /// `ReturnedByClosestHit`.
-    pub returned: Ident,
-}
-
-impl Kind {
-    /// The payload parts it has.
-    pub fn roles(self) -> Option<Roles> {
-        let ident = |word: &str| quote::format_ident!("{word}{}", self.context());
-        (self != Self::RayGen).then(|| Roles {
-            at: ident("At"),
-            from: ident("From"),
-            received: ident("ReceivedBy"),
-            returned: ident("ReturnedBy"),
-        })
-    }
 }

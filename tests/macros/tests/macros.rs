@@ -450,12 +450,18 @@ fn a_pipeline_describes_itself() {
 
 /// Runs an entry on a frame; gives its decision and the payload.
 fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer) -> (Decision, WordBuffer) {
-    use optix_device_rs::host::{Executor, Frame, HitState};
+    use optix_device_rs::host::{CallableCall, ExceptionState, Executor, Frame, HitState};
     use optix_device_rs::machine::TraceCall;
 
     struct Alone;
     impl Executor for Alone {
         fn trace(&self, _: &TraceCall, _: &mut WordBuffer) {
+            unreachable!()
+        }
+        fn call(&self, _: &CallableCall, _: &mut WordBuffer) {
+            unreachable!()
+        }
+        fn throw(&self, _: ExceptionState) -> ! {
             unreachable!()
         }
         fn report(&self, _: f32, _: u8, _: usize, _: &WordBuffer) -> bool {
@@ -489,6 +495,7 @@ fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer)
         ray: Ray::new(Vec3::ZERO, Vec3::X),
         object_ray: (Vec3::ZERO, Vec3::X),
         hit: HitState::NONE,
+        exception: &ExceptionState::NONE,
     };
     // SAFETY: the frame's parameters are the pipeline's, and its record is a `Paint` wherever the program reads one.
     let decision = unsafe { (entry.run)(&frame) };

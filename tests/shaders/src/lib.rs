@@ -1,6 +1,8 @@
 //! Device programs that report what a ray meets, for tests across backends.
 #![no_std]
 
+pub mod callables;
+
 use optix_device_rs::prelude::*;
 use path_tracer_shaders::ball::{self, Ball, BallHit};
 

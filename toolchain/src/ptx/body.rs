@@ -3,7 +3,7 @@
 //! Inline assembly is PTX like the rest, but written by people: several statements on a line, and blocks of its own.
 //! So this goes by PTX's grammar, not by the compiler's layout.
 
-/// An entry or a function with its body.
+/// An entry or a function with its body. Callables count as entries: OptiX leads to them.
 #[derive(Clone, Debug)]
 pub(crate) struct Body<'a> {
     pub name: &'a str,
@@ -74,6 +74,7 @@ pub(crate) fn bodies(text: &str) -> Vec<Body<'_>> {
             Some(tail) => {
                 let (statements, rest) = statements(tail);
                 let name = super::function_name(head);
+                let is_entry = is_entry || super::is_callable(name);
                 let parameters = head.rsplit_once('(').is_some_and(|(_, list)| list.contains(".param"));
                 bodies.push(Body { name, is_entry, has_parameters: parameters, statements });
                 rest

@@ -14,7 +14,7 @@ pub(super) fn check(code: &Code<'_>, pipelines: &[Pipeline], findings: &mut Vec<
                 code.0.iter().filter(|function| function.body.is_entry && function.body.name == entry).collect();
             match found[..] {
                 [] => error(format!("there is no entry `{entry}`")),
-                [one] if one.body.has_parameters => {
+                [one] if one.body.has_parameters && !program.kind.is_callable() => {
                     error(format!("entry `{entry}` has parameters, and OptiX passes none"));
                 }
                 [_] => {}

@@ -12,6 +12,8 @@ pub struct Pipeline {
     pub params: Params,
     /// The ray types; the index is SBT offset, miss index and payload type.
     pub rays: Vec<Ray>,
+    /// What its programs may throw, if anything.
+    pub throws: Option<String>,
     /// The programs, one per entry.
     pub programs: Vec<Program>,
 }
@@ -64,9 +66,9 @@ pub struct Program {
     pub entry: String,
     /// The Rust function as `pipeline!` names it: `surface::lambert`.
     pub function: String,
-    /// The ray type it runs for; none for ray generation.
+    /// The ray type it runs for; none for ray generation, callables and exceptions.
     pub ray: Option<usize>,
-    /// The material of its hit group: the record's name. None for ray generation and miss.
+    /// The material of its hit group: the record's name. None for others.
     pub material: Option<String>,
 }
 
@@ -83,11 +85,26 @@ pub enum Kind {
     AnyHit,
     /// Intersection.
     Intersection,
+    /// Direct callable.
+    DirectCallable,
+    /// Continuation callable.
+    ContinuationCallable,
+    /// Exception.
+    Exception,
 }
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Self; 5] = [Self::RayGen, Self::Miss, Self::ClosestHit, Self::AnyHit, Self::Intersection];
+    pub const ALL: [Self; 8] = [
+        Self::RayGen,
+        Self::Miss,
+        Self::ClosestHit,
+        Self::AnyHit,
+        Self::Intersection,
+        Self::DirectCallable,
+        Self::ContinuationCallable,
+        Self::Exception,
+    ];
 
     /// As the attribute is called: `closesthit`.
     pub const fn word(self) -> &'static str {
@@ -97,6 +114,9 @@ impl Kind {
             Self::ClosestHit => "closesthit",
             Self::AnyHit => "anyhit",
             Self::Intersection => "intersection",
+            Self::DirectCallable => "direct_callable",
+            Self::ContinuationCallable => "continuation_callable",
+            Self::Exception => "exception",
         }
     }
 
@@ -108,7 +128,7 @@ impl Kind {
     /// The `OptixPayloadSemantics` bits that let it read and write a payload word. None: it has no payload.
     pub const fn semantics(self) -> Option<(u32, u32)> {
         match self {
-            Self::RayGen => None,
+            Self::RayGen | Self::DirectCallable | Self::ContinuationCallable | Self::Exception => None,
             Self::ClosestHit => Some((4, 8)),
             Self::Miss => Some((16, 32)),
             Self::AnyHit => Some((64, 128)),
@@ -118,7 +138,12 @@ impl Kind {
 
     /// Whether it may trace rays.
     pub const fn may_trace(self) -> bool {
-        matches!(self, Self::RayGen | Self::ClosestHit | Self::Miss)
+        matches!(self, Self::RayGen | Self::ClosestHit | Self::Miss | Self::ContinuationCallable)
+    }
+
+    /// Whether it is a callable: a function with arguments, which programs call.
+    pub const fn is_callable(self) -> bool {
+        matches!(self, Self::DirectCallable | Self::ContinuationCallable)
     }
 }
 
@@ -142,6 +167,7 @@ fn pipeline(json: &Json) -> Option<Pipeline> {
             fields: params.get("fields").items().iter().map(field).collect::<Option<_>>()?,
         },
         rays: json.get("rays").items().iter().map(ray).collect::<Option<_>>()?,
+        throws: text(json, "throws"),
         programs: json.get("programs").items().iter().map(program).collect::<Option<_>>()?,
     })
 }

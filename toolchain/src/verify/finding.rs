@@ -48,6 +48,8 @@ pub enum Rule {
     LocalMemory,
     /// Calls of functions.
     Call,
+    /// Calls of callables, and throwing.
+    Callable,
 }
 
 impl Rule {
@@ -63,6 +65,7 @@ impl Rule {
             Self::Trace => "trace",
             Self::LocalMemory => "local-memory",
             Self::Call => "call",
+            Self::Callable => "callable",
         }
     }
 
@@ -85,6 +88,10 @@ impl Rule {
             Self::LocalMemory => {
                 "an array that is indexed by a run-time value, or a value whose address is passed on, lies in local \
                  memory: index by constants, unroll, or pass by value"
+            }
+            Self::Callable => {
+                "these calls are made by `Callable::call` and `throw`, which a program's context allows or not; look for code \
+                 that was written by hand"
             }
             Self::Call => {
                 "mark the function `#[inline]`, or allow the call by `--allow-function NAME` if it is meant to be one"
@@ -117,16 +124,19 @@ impl Program {
     /// How findings name it.
     pub(super) fn item(&self, pipeline: &Pipeline) -> String {
         let kind = match self.kind {
-            Kind::RayGen => "ray-generation",
-            Kind::Miss => "miss",
-            Kind::ClosestHit => "closest-hit",
-            Kind::AnyHit => "any-hit",
-            Kind::Intersection => "intersection",
+            Kind::RayGen => "ray-generation program",
+            Kind::Miss => "miss program",
+            Kind::ClosestHit => "closest-hit program",
+            Kind::AnyHit => "any-hit program",
+            Kind::Intersection => "intersection program",
+            Kind::DirectCallable => "direct callable",
+            Kind::ContinuationCallable => "continuation callable",
+            Kind::Exception => "exception program",
         };
         let material = self.material.as_ref().map(|material| format!("material `{material}`"));
         let ray = self.ray.and_then(|ray| pipeline.rays.get(ray)).map(|ray| format!("ray `{}`", ray.payload));
         let place: Vec<String> = material.into_iter().chain(ray).collect();
         let place = if place.is_empty() { String::new() } else { format!(" ({})", place.join(", ")) };
-        format!("{kind} program `{}` of `{}`{place}", self.function, pipeline.name)
+        format!("{kind} `{}` of `{}`{place}", self.function, pipeline.name)
     }
 }

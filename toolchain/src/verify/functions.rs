@@ -1,9 +1,17 @@
 //! What costs without being wrong: local memory, and functions that are called instead of inlined.
 
-use super::code::{Code, demangled};
+use super::callables;
+use super::code::{Code, Function, demangled};
 use super::facts::Pipeline;
 use super::finding::{Finding, Rule};
 use super::trace;
+use crate::ptx::calls::Call;
+
+/// Whether a call goes through a pointer that is not that of a callable.
+fn is_through_a_pointer(function: &Function<'_>, call: &Call<'_>) -> bool {
+    let is_callable = |other: &Call<'_>| callables::is_call(other) && other.results.contains(&call.function);
+    call.function.starts_with('%') && !function.calls.iter().any(is_callable)
+}
 
 pub(super) fn check(code: &Code<'_>, pipelines: &[Pipeline], allowed: &[String], findings: &mut Vec<Finding>) {
     let item = |name: &str| {
@@ -26,7 +34,7 @@ pub(super) fn check(code: &Code<'_>, pipelines: &[Pipeline], allowed: &[String],
             let message = format!("keeps {bytes} bytes in local memory{payloads}");
             findings.push(Finding::error(Rule::LocalMemory, place(), message));
         }
-        if function.calls.iter().any(|call| call.function.starts_with('%')) {
+        if function.calls.iter().any(|call| is_through_a_pointer(function, call)) {
             findings.push(Finding::error(Rule::Call, place(), "calls a function through a pointer"));
         }
     }

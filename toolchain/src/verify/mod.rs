@@ -14,10 +14,12 @@
 //! | payload words are read and written only by programs that may | [`Rule::PayloadWord`] |
 //! | no local memory but for payloads that travel by pointer | [`Rule::LocalMemory`] |
 //! | no function calls but those that the caller allows | [`Rule::Call`] |
+//! | callables are called, and exceptions thrown, by programs that may | [`Rule::Callable`] |
 //! | nothing is missing that OptiX would have to find elsewhere | [`Rule::Module`] |
 //!
 //! Arguments of calls are followed to the constants they come from; one that is not a constant is a finding too.
 
+mod callables;
 mod code;
 mod entries;
 mod facts;
@@ -99,6 +101,7 @@ pub fn check(text: &str, pipelines: &[Pipeline], allowed: &[String]) -> Vec<Find
                 params::check_loads(function, pipeline, &others, &item, &mut findings);
                 payload::check_words(function, program, pipeline, &item, &mut findings);
                 trace::check(function, program, pipeline, &item, &mut findings);
+                callables::check(function, program, pipeline, &item, &mut findings);
             }
             if let Some(entry) = reached.first() {
                 payload::check_type(entry, program, pipeline, &item, &mut findings);

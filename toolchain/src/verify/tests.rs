@@ -32,12 +32,16 @@ fn demo() -> Pipeline {
             Ray { payload: "Radiance".into(), semantics: vec![8 | 32 | 1, 2 | 128 | 4 | 64], memory_words: 0 },
             Ray { payload: "Shadow".into(), semantics: vec![2 | 32 | 1], memory_words: 0 },
         ],
+        throws: Some("Fault".into()),
         programs: vec![
             program(Kind::RayGen, "camera", None, None),
             program(Kind::Miss, "sky", Some(0), None),
             program(Kind::ClosestHit, "shade", Some(0), Some("Lambert")),
             program(Kind::AnyHit, "cut_out", Some(0), Some("Lambert")),
             program(Kind::Intersection, "ball", Some(1), Some("Ball")),
+            program(Kind::DirectCallable, "wood", None, None),
+            program(Kind::ContinuationCallable, "mirror", None, None),
+            program(Kind::Exception, "report", None, None),
         ],
     }
 }
@@ -232,4 +236,31 @@ fn memory_and_calls() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!(found[0].item, "function `demo::helper`");
     assert!(found[0].message.starts_with("is called, not inlined, by closest-hit program `shade`"), "{}", found[0]);
+}
+
+#[test]
+fn callables_and_exceptions() {
+    let one = |from: &str, to: &str, says: &[&str]| one(from, to, &[&["error[callable]"], says].concat());
+    let any_hit = "call _optix_ignore_intersection, ();";
+    let may_not = "does not allow";
+    one(
+        any_hit,
+        "call (%rd1), _optix_call_continuation_callable, (%r1);",
+        &["any-hit program `cut_out`", "calls a continuation callable", may_not],
+    );
+    let wood = "// wood";
+    one(wood, "call (%rd7), _optix_call_continuation_callable, (%r1);", &["direct callable `wood` of `Demo`", may_not]);
+    let report = "// report";
+    let exception = "exception program `report` of `Demo`";
+    one(report, "call (%rd7), _optix_call_direct_callable, (%r1);", &[exception, "calls a direct callable", may_not]);
+    one(report, "call _optix_throw_exception_0, (%r1);", &[exception, "throws an exception", may_not]);
+    let trace = findings(wood, "call (%r1), _optix_trace_typed_32, (1);");
+    assert!(trace[0].contains("direct callable `wood`") && trace[0].contains(may_not), "{trace:?}");
+    super::tests::one(wood, "call (%r1), %rd8, (), prototype_0;", &["error[call]", "`wood`", "through a pointer"]);
+
+    let mut silent = demo();
+    silent.throws = None;
+    let found = check(PTX, &[silent], &["helper".into()]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].message.contains("`Demo` does not say what its programs throw"), "{}", found[0]);
 }

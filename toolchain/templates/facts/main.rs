@@ -22,8 +22,9 @@ fn pipeline(pipeline: &PipelineDescription) -> String {
             payload.name, payload.semantics, payload.memory_words
         )
     });
+    let throws = pipeline.exceptions.throws.map_or("null".to_string(), |throws| format!("{throws:?}"));
     format!(
-        r#"{{"name":{:?},"params":{{"name":{:?},"symbol":{:?},"size":{},"align":{},"fields":{fields}}},"rays":{rays},"programs":{}}}"#,
+        r#"{{"name":{:?},"params":{{"name":{:?},"symbol":{:?},"size":{},"align":{},"fields":{fields}}},"rays":{rays},"throws":{throws},"programs":{}}}"#,
         pipeline.name,
         params.name,
         params.symbol,
@@ -60,6 +61,13 @@ fn programs(pipeline: &PipelineDescription) -> Vec<String> {
                 }
             }
         }
+    }
+    for callable in pipeline.callables {
+        let kind = if callable.continuation { "continuation_callable" } else { "direct_callable" };
+        add(kind, &callable.entry, None, None);
+    }
+    if let Some(program) = &pipeline.exceptions.program {
+        add("exception", &program.entry, None, None);
     }
     programs
 }

@@ -6,6 +6,8 @@
 
 #[macro_use]
 mod call;
+mod callable;
+mod exception;
 mod hit;
 mod launch;
 mod params;

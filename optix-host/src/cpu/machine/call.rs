@@ -1,6 +1,7 @@
 //! Program calls and trace calls.
 
 use super::checks::{self, Watch};
+use super::exceptions::throw;
 use super::traversal::{AtHit, Traversal};
 use super::{Job, trap};
 use crate::cpu::kernel::{self, Accel, RayQuery};
@@ -8,7 +9,8 @@ use crate::sbt::Section;
 use core::cell::Cell;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec3};
-use optix_device_rs::host::{Entry, Executor, Frame, HitState, PayloadWatch, TraceCall};
+use optix_device_rs::exception::TRACE_DEPTH_EXCEEDED;
+use optix_device_rs::host::{CallableCall, Entry, ExceptionState, Executor, Frame, HitState, PayloadWatch, TraceCall};
 use optix_device_rs::prelude::{Decision, Ray};
 use optix_device_rs::words::WordBuffer;
 
@@ -19,6 +21,8 @@ pub(super) struct Call<'c> {
     index: UVec3,
     /// Trace calls around this one.
     depth: u32,
+    /// Callables around this one, since the last trace call.
+    callables: u32,
     /// The program that runs, for messages.
     running: &'c Cell<&'static str>,
     payload: &'c Cell<WordBuffer>,
@@ -37,6 +41,12 @@ pub(super) struct Seen {
 
 impl Seen {
     const NO_OBJECT: (Vec3, Vec3) = (Vec3::ZERO, Vec3::ZERO);
+    /// For programs without a ray.
+    const NOTHING: Self = {
+        let flags = optix_device_rs::prelude::RayFlags::NONE;
+        let ray = Ray { origin: Vec3::ZERO, direction: Vec3::ZERO, tmin: 0.0, tmax: 0.0, time: 0.0, mask: 0, flags };
+        Self { ray, object_ray: Self::NO_OBJECT, hit: HitState::NONE }
+    };
 
     fn without_hit(ray: Ray) -> Self {
         Self { ray, object_ray: Self::NO_OBJECT, hit: HitState::NONE }
@@ -48,10 +58,23 @@ impl<'c> Call<'c> {
     pub fn raygen(job: &'c Job<'c>, index: UVec3, running: &'c Cell<&'static str>) {
         // It has no payload, and the frame needs one.
         let payload = Cell::new(WordBuffer::ZERO);
-        let call = Call { job, index, depth: 0, running, payload: &payload, watch: None };
+        let call = Call { job, index, depth: 0, callables: 0, running, payload: &payload, watch: None };
         let entry = &job.description.raygen[job.raygen].entry;
-        let seen = Seen::without_hit(Ray::new(Vec3::ZERO, Vec3::ZERO));
-        let _ = call.run(entry, &job.sbt.raygen, job.raygen, seen, &call);
+        let _ = call.run(entry, &job.sbt.raygen, job.raygen, Seen::NOTHING, &call);
+    }
+
+    /// Tells the exception program, if there is one; says whether there is.
+    pub fn exception(
+        job: &'c Job<'c>,
+        index: UVec3,
+        running: &'c Cell<&'static str>,
+        exception: &ExceptionState,
+    ) -> bool {
+        let Some(program) = &job.description.exceptions.program else { return false };
+        let payload = Cell::new(WordBuffer::ZERO);
+        let call = Call { job, index, depth: 0, callables: 0, running, payload: &payload, watch: None };
+        let _ = call.run_with(&program.entry, &job.sbt.exception, 0, Seen::NOTHING, exception, &call);
+        true
     }
 
     /// Runs a program with the data of record `record` of `section`.
@@ -62,6 +85,19 @@ impl<'c> Call<'c> {
         section: &Section<K>,
         record: usize,
         seen: Seen,
+        executor: &dyn Executor,
+    ) -> Decision {
+        self.run_with(entry, section, record, seen, &ExceptionState::NONE, executor)
+    }
+
+    #[inline]
+    fn run_with<K>(
+        &self,
+        entry: &Entry,
+        section: &Section<K>,
+        record: usize,
+        seen: Seen,
+        exception: &ExceptionState,
         executor: &dyn Executor,
     ) -> Decision {
         let frame = Frame {
@@ -75,6 +111,7 @@ impl<'c> Call<'c> {
             ray: seen.ray,
             object_ray: seen.object_ray,
             hit: seen.hit,
+            exception,
         };
         let caller = self.running.replace(entry.name);
         // SAFETY: the parameters were lowered from `P::Params` of the pipeline that the entry belongs to, and the section's
@@ -88,18 +125,50 @@ impl<'c> Call<'c> {
     pub fn trace(&self, trace: &TraceCall, payload: &mut WordBuffer) {
         let job = self.job;
         let depth = self.depth + 1;
-        if depth > job.trace_depth {
+        if depth > job.depths.trace {
+            if job.exceptions.trace_depth {
+                throw(ExceptionState { code: TRACE_DEPTH_EXCEEDED, ..ExceptionState::NONE });
+            }
             trap(format!(
                 "trace calls nest deeper than the pipeline's trace depth of {} (guide 12, G013)",
-                job.trace_depth
+                job.depths.trace
             ));
         }
         let watch = job.checked.then(|| checks::trace(job, trace));
-        let call = Call { depth, payload: Cell::from_mut(payload), watch: watch.as_ref(), ..*self };
+        let payload = Cell::from_mut(payload);
+        let call = Call { depth, callables: 0, payload, watch: watch.as_ref(), ..*self };
         call.find(trace);
         if let Some(watch) = &watch {
             watch.returns(trace.caller_reads);
         }
+    }
+
+    /// Calls a callable, which finds its arguments in `words` and leaves its result there.
+    pub fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
+        let (job, index) = (self.job, call.index as usize);
+        let Some(&program) = job.sbt.callables.programs().get(index) else {
+            trap(format!(
+                "there is no callable {index}: the table has {} (guide 7.2, D018)",
+                job.sbt.callables.programs().len()
+            ))
+        };
+        let callable = &job.description.callables[program];
+        if (callable.continuation, callable.signature) != (call.continuation, call.signature) {
+            trap(format!(
+                "{} is called with another signature or as another kind (guide 15.2, I003)",
+                callable.entry.name
+            ));
+        }
+        let callables = self.callables + 1;
+        if callables > job.depths.callables() {
+            trap(format!(
+                "callables call each other deeper than the pipeline's {} levels: state `callable_depth: N` in `pipeline!` \
+                 (guide 6.8, I013)",
+                job.depths.callables()
+            ));
+        }
+        let callee = Call { callables, payload: Cell::from_mut(words), watch: None, ..*self };
+        let _ = callee.run(&callable.entry, &job.sbt.callables, index, Seen::NOTHING, &callee);
     }
 
     /// Traverses, and runs the closest-hit or the miss program.
@@ -149,6 +218,12 @@ impl<'c> Call<'c> {
 impl Executor for Call<'_> {
     fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
         Call::trace(self, call, payload);
+    }
+    fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
+        Call::call(self, call, words);
+    }
+    fn throw(&self, exception: ExceptionState) -> ! {
+        throw(exception)
     }
     fn report(&self, _: f32, _: u8, _: usize, _: &WordBuffer) -> bool {
         trap("only an intersection program reports hits".into())

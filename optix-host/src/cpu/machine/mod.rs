@@ -4,19 +4,22 @@
 //! | --- | --- |
 //! | `call` | program calls and trace calls |
 //! | `traversal` | the programs that run during traversal, and what programs at a primitive may ask |
+//! | `exceptions` | what is thrown, and what becomes of it |
 //! | `checks` | what the checked mode traps |
 
 mod call;
 mod checks;
+mod exceptions;
 #[cfg(test)]
 mod tests;
 mod traversal;
 
-use crate::pipeline::Plan;
+use crate::pipeline::{Depths, Exceptions, Plan};
 use crate::sbt::ShaderBindingTable;
 use crate::{Error, Result};
 use call::Call;
 use core::cell::Cell;
+use exceptions::{Thrown, Unhandled};
 use glam::UVec3;
 use optix_device_rs::host::{HitPrograms, PipelineDescription, RayDescription};
 use rayon::prelude::*;
@@ -31,7 +34,8 @@ const CHUNK: u64 = 16;
 /// A launch.
 pub(super) struct Job<'a> {
     description: &'a PipelineDescription,
-    trace_depth: u32,
+    depths: Depths,
+    exceptions: Exceptions,
     sbt: &'a ShaderBindingTable,
     /// A copy of the parameters at an address that is a multiple of 16.
     params: Vec<u128>,
@@ -39,6 +43,8 @@ pub(super) struct Job<'a> {
     dimensions: UVec3,
     /// Whether programs are checked for what the guide leaves undefined; see [`checks`].
     checked: bool,
+    /// Exceptions of a pipeline without an exception program.
+    unhandled: Unhandled,
 }
 
 impl<'a> Job<'a> {
@@ -52,8 +58,10 @@ impl<'a> Job<'a> {
     ) -> Self {
         let mut copy = vec![0u128; params.len().div_ceil(16).max(1)];
         bytemuck::cast_slice_mut(&mut copy)[..params.len()].copy_from_slice(params);
-        let (description, trace_depth) = (&plan.description, plan.trace_depth);
-        Self { description, trace_depth, sbt, params: copy, raygen, dimensions: dimensions.into(), checked }
+        let Plan { description, depths, exceptions, .. } = plan;
+        let (depths, exceptions, unhandled) = (*depths, *exceptions, Unhandled::default());
+        let dimensions = dimensions.into();
+        Self { description, depths, exceptions, sbt, params: copy, raygen, dimensions, checked, unhandled }
     }
 
     /// The ray type whose miss record this is.
@@ -81,8 +89,13 @@ impl<'a> Job<'a> {
     }
 }
 
-/// Runs the launch on all threads of the current pool.
-pub(super) fn run(job: &Job<'_>) -> Result<()> {
+/// Runs the launch on all threads of the current pool. What comes back are the exceptions that no program was told of.
+pub(super) fn run(job: Job<'_>) -> Result<Vec<String>> {
+    run_all(&job)?;
+    Ok(job.unhandled.reports())
+}
+
+fn run_all(job: &Job<'_>) -> Result<()> {
     let size = job.dimensions.as_u64vec3();
     let total = size.x * size.y * size.z;
     let failed = AtomicBool::new(false);
@@ -123,14 +136,28 @@ fn trap(what: String) -> ! {
 
 fn run_index(job: &Job<'_>, index: UVec3) -> Result<()> {
     let running = Cell::new(job.description.raygen[job.raygen].entry.name);
-    catch_unwind(AssertUnwindSafe(|| Call::raygen(job, index, &running))).map_err(|panic| {
-        let what = if let Some(Trap(what)) = panic.downcast_ref() {
-            what.clone()
-        } else if let Some(what) = panic.downcast_ref::<String>() {
-            what.clone()
-        } else {
-            panic.downcast_ref::<&str>().map_or("it panicked".into(), |what| what.to_string())
-        };
-        Error::Program { program: running.get().into(), index: index.to_array(), what }
-    })
+    let raygen = catch_unwind(AssertUnwindSafe(|| Call::raygen(job, index, &running)));
+    let panic = match raygen.map_err(|panic| panic.downcast::<Thrown>()) {
+        Ok(()) => return Ok(()),
+        Err(Ok(thrown)) => {
+            let thrower = running.get();
+            match catch_unwind(AssertUnwindSafe(|| Call::exception(job, index, &running, &thrown.0))) {
+                Ok(true) => return Ok(()),
+                Ok(false) => {
+                    job.unhandled.add(job, index, thrower, &thrown.0);
+                    return Ok(());
+                }
+                Err(panic) => panic,
+            }
+        }
+        Err(Err(panic)) => panic,
+    };
+    let what = if let Some(Trap(what)) = panic.downcast_ref() {
+        what.clone()
+    } else if let Some(what) = panic.downcast_ref::<String>() {
+        what.clone()
+    } else {
+        panic.downcast_ref::<&str>().map_or("it panicked".into(), |what| what.to_string())
+    };
+    Err(Error::Program { program: running.get().into(), index: index.to_array(), what })
 }

@@ -5,9 +5,10 @@ use super::*;
 use crate::cpu::kernel::{Aabb, AabbInput, Accel, Gas, GeometryFlags, SbtMapping, TriangleInput};
 use crate::sbt::{HitProgram, Section};
 use glam::Vec3;
+use optix_device_rs::callable::Direct;
 use optix_device_rs::host::{
-    Entry, Frame, GeometryKind, HitGroupDescription, ParamsDescription, PayloadDescription, ProgramDescription,
-    RayDescription, RecordLayout, TraceCall,
+    CallableDescription, Entry, ExceptionsDescription, Frame, GeometryKind, HitGroupDescription, ParamsDescription,
+    PayloadDescription, ProgramDescription, RayDescription, RecordLayout, TraceCall,
 };
 use optix_device_rs::machine::Cx;
 use optix_device_rs::payload::Field;
@@ -25,6 +26,17 @@ struct Script {
     closesthit_gives: &'static [usize],
     miss_gives: &'static [usize],
     report: (f32, u32),
+    callable: Called,
+}
+
+/// What the ray-generation program calls.
+#[derive(Clone, Copy, PartialEq)]
+enum Called {
+    Nothing,
+    /// A record, by a signature that is or is not the callable's.
+    Record(u32, bool),
+    /// A callable that calls itself so often.
+    Nested(u32),
 }
 
 thread_local! {
@@ -51,7 +63,17 @@ macro_rules! programs {
     )*};
 }
 programs! {
-    raygen: |cx| cx.trace(&script().call, WordBuffer::ZERO);
+    raygen: |cx| {
+        call(cx);
+        cx.trace(&script().call, WordBuffer::ZERO)
+    };
+    direct: |cx| {
+        if let Called::Nested(deeper) = script().callable && deeper > 0 {
+            SCRIPT.set(Some(Script { callable: Called::Nested(deeper - 1), ..script() }));
+            call(cx);
+        }
+        cx.set_payload(1, &WordBuffer([7; 32]));
+    };
     anyhit: |cx| cx.gives(script().anyhit_gives);
     closesthit: |cx| {
         cx.takes(script().closesthit_takes);
@@ -63,6 +85,19 @@ programs! {
     };
     miss: |cx| cx.gives(script().miss_gives);
     intersection: |cx| cx.report(script().report.0, script().report.1, 0, &WordBuffer::ZERO);
+}
+
+/// Makes the script's call.
+fn call(cx: Cx) {
+    // SAFETY: none is needed on the host.
+    unsafe {
+        match script().callable {
+            Called::Nothing => {}
+            Called::Record(index, true) => assert_eq!(cx.call_direct::<fn(f32) -> u32>(index, (1.0,)), 7),
+            Called::Record(index, false) => drop(cx.call_direct::<fn(u32) -> u32>(index, (1,))),
+            Called::Nested(_) => drop(cx.call_direct::<fn(f32) -> u32>(0, (1.0,))),
+        }
+    }
 }
 
 const fn entry(name: &'static str, run: unsafe fn(&Frame<'_>) -> Decision) -> Entry {
@@ -100,7 +135,10 @@ static PIPELINE: PipelineDescription = PipelineDescription {
             &[HitPrograms { intersection: Some(entry("__intersection__test", intersection)), ..HIT }],
         ),
     ],
+    callables: &[CallableDescription::of::<(), fn(f32) -> u32, Direct>(entry("__direct_callable__test", direct))],
+    exceptions: ExceptionsDescription { throws: None, variants: &[], program: None },
     trace_depth: None,
+    callable_depth: None,
 };
 
 /// A ray down on a triangle, or on a box, and a call that breaks no rule: field 0 goes in and comes back.
@@ -125,6 +163,7 @@ fn lawful(custom: bool) -> Script {
         closesthit_gives: &[],
         miss_gives: &[],
         report,
+        callable: Called::Nothing,
     }
 }
 
@@ -148,15 +187,25 @@ fn run(custom: bool, checked: bool, mut script: Script) -> Option<String> {
         raygen: Section::new([(0, none)]),
         miss: Section::new([(0, none)]),
         hit: Section::new([0, 1].map(|group| (HitProgram { group, ray: 0 }, none))),
+        callables: Section::new([(0, none)]),
+        exception: Section::new([]),
     };
     let job = Job {
         description: &PIPELINE,
-        trace_depth: 2,
+        depths: Depths {
+            trace: 2,
+            trace_is_a_promise: false,
+            continuation: 0,
+            direct_from_traversal: 0,
+            direct_from_state: 3,
+        },
+        exceptions: Exceptions::default(),
         sbt: &sbt,
         params: vec![0],
         raygen: 0,
         dimensions: UVec3::new(4, 2, 1),
         checked,
+        unhandled: Unhandled::default(),
     };
     run_index(&job, UVec3::new(3, 1, 0)).err().map(|error| error.to_string())
 }
@@ -263,5 +312,24 @@ fn records_and_depth() {
         nowhere.call.miss_index = 1;
         let message = run(false, checked, nowhere).unwrap();
         assert!(message.contains("no miss record 1: the pipeline has 1") && message.contains("G012"), "{message}");
+    }
+}
+
+/// So are these: a call of another function than the caller means, or calls without end.
+#[test]
+fn callables() {
+    for checked in [false, true] {
+        let run = |callable| run(false, checked, Script { callable, ..lawful(false) });
+        assert_eq!(run(Called::Record(0, true)), None);
+        let message = run(Called::Record(1, true)).unwrap();
+        assert!(message.contains("no callable 1: the table has 1") && message.contains("D018"), "{message}");
+        let message = run(Called::Record(0, false)).unwrap();
+        assert!(message.contains("__direct_callable__test") && message.contains("I003"), "{message}");
+        assert_eq!(run(Called::Nested(2)), None);
+        let message = run(Called::Nested(3)).unwrap();
+        assert!(
+            message.contains("3 levels") && message.contains("callable_depth") && message.contains("I013"),
+            "{message}"
+        );
     }
 }

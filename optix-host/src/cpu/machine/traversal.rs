@@ -5,7 +5,7 @@ use super::checks;
 use crate::cpu::kernel::{self, Candidate, InstancePath, Programs, Reporter, Site};
 use core::cell::RefCell;
 use glam::Vec3;
-use optix_device_rs::host::{Executor, HitState, TraceCall};
+use optix_device_rs::host::{CallableCall, ExceptionState, Executor, HitState, TraceCall};
 use optix_device_rs::prelude::{Decision, Ray};
 use optix_device_rs::words::WordBuffer;
 
@@ -23,6 +23,12 @@ fn rows(matrix: [f32; 12]) -> [[f32; 4]; 3] {
 impl<V: Fn() -> Option<[[f32; 3]; 3]>> Executor for AtHit<'_, V> {
     fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
         self.call.trace(call, payload);
+    }
+    fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
+        self.call.call(call, words);
+    }
+    fn throw(&self, exception: ExceptionState) -> ! {
+        self.call.throw(exception)
     }
     fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool {
         self.call.report(t, kind, count, attributes)
@@ -55,6 +61,12 @@ struct AtPrimitive<'c, 't, 'p, 'r, 's> {
 impl Executor for AtPrimitive<'_, '_, '_, '_, '_> {
     fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
         self.call.trace(call, payload);
+    }
+    fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
+        self.call.call(call, words);
+    }
+    fn throw(&self, exception: ExceptionState) -> ! {
+        self.call.throw(exception)
     }
     fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool {
         if self.call.job.checked {

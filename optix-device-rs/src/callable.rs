@@ -1,0 +1,235 @@
+//! References to callables: functions of the shader binding table that a program chooses while it runs (guide 15).
+//!
+//! [`Callable`] is one of them, with the data of its record; [`Callables`] is a table of them, chosen by number. Both are
+//! fields of records and launch parameters, filled in by the host, so that the target may change without compiling
+//! anything anew. `call` is checked against the signature, and against what the caller may call:
+//!
+//! ```
+//! use optix_device_rs::prelude::*;
+//!
+//! /// How a texture is looked up: the signature that caller and callable agree on.
+//! type Texture = fn(Vec2) -> Vec3;
+//!
+//! #[derive(Clone, Copy, SbtRecord)]
+//! #[repr(C)]
+//! pub struct Checker {
+//!     pub squares: f32,
+//!     pub other: Callable<Texture>, // callables call callables
+//! }
+//!
+//! #[direct_callable]
+//! fn checker<P: Pipeline>(dc: &DirectCallable<P>, record: &Checker, uv: Vec2) -> Vec3 {
+//!     let square = (uv * record.squares).as_ivec2();
+//!     if (square.x + square.y) & 1 == 0 { Vec3::ONE } else { record.other.call(dc, uv) }
+//! }
+//! ```
+
+use crate::data::DeviceData;
+use crate::words::Words;
+use core::marker::PhantomData;
+
+/// A kind of callable: [`Direct`] or [`Continuation`].
+pub trait CallableKind: 'static {
+    /// Which of the two it is.
+    const IS_CONTINUATION: bool;
+}
+
+/// Runs at once, like a function call; traces no rays (guide 15.1).
+#[derive(Clone, Copy, Debug)]
+pub enum Direct {}
+
+/// Runs through the scheduler, and may trace rays (guide 15.1).
+#[derive(Clone, Copy, Debug)]
+pub enum Continuation {}
+
+impl CallableKind for Direct {
+    const IS_CONTINUATION: bool = false;
+}
+impl CallableKind for Continuation {
+    const IS_CONTINUATION: bool = true;
+}
+
+/// What a callable takes and returns, as a function type: `fn(Vec2, f32) -> Vec3`. Up to eight arguments, and arguments
+/// and result of 32 words each at most.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not the signature of a callable",
+    label = "expected a function type such as `fn(Vec2, f32) -> Vec3`",
+    note = "at most eight arguments, passed and returned by value, each of which can travel in registers (`Words`)"
+)]
+pub trait Signature: 'static {
+    /// The arguments, as a tuple.
+    type Arguments: Words;
+    /// What comes back.
+    type Result: Words;
+}
+
+macro_rules! signature {
+    ($(($($argument:ident)*))*) => {$(
+        impl<$($argument: Words,)* R: Words> Signature for fn($($argument),*) -> R {
+            type Arguments = ($($argument,)*);
+            type Result = R;
+        }
+    )*};
+}
+signature! { () (A) (A B) (A B C) (A B C D) (A B C D E) (A B C D E F) (A B C D E F G) (A B C D E F G H) }
+
+/// What crosses in a call on the device. With four bytes as its alignment it goes word by word: more would pair words up.
+#[doc(hidden)]
+#[derive(Clone, Copy)]
+#[repr(C, packed(4))]
+pub struct Packed<T>(pub T);
+
+/// A callable with signature `F` and the data of its record: `record.texture.call(hit, uv)`.
+///
+/// `Callable<fn(Vec2) -> Vec3>` is a direct one; `Callable<fn(Vec2) -> Vec3, Continuation>` may trace rays. On the host
+/// it is a [`CallableRecord`](crate::host::CallableRecord), which a scene makes.
+#[repr(transparent)]
+pub struct Callable<F, K = Direct> {
+    /// Index in the callables section, of a record whose program has signature `F` and kind `K`.
+    index: u32,
+    types: PhantomData<fn() -> (F, K)>,
+}
+
+/// A table of callables with signature `F`, chosen by number: `frame.textures().get(i).call(hit, uv)`.
+///
+/// On the host it is a [`CallableTable`](crate::host::CallableTable), which a scene makes.
+#[repr(C)]
+pub struct Callables<F, K = Direct> {
+    /// Index of the first one in the callables section; all `len` from there on have signature `F` and kind `K`.
+    first: u32,
+    len: u32,
+    types: PhantomData<fn() -> (F, K)>,
+}
+
+macro_rules! references {
+    ($($name:ident)*) => {$(
+        impl<F, K> Clone for $name<F, K> {
+            #[inline(always)]
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+        impl<F, K> Copy for $name<F, K> {}
+
+        // SAFETY: `#[repr(C)]` integers, the same on both machines.
+        unsafe impl<F: Signature, K: CallableKind> DeviceData for $name<F, K> {
+            #[inline]
+            fn write_to(&self, bytes: &mut [u8]) {
+                self.to_raw().write_to(bytes);
+            }
+        }
+    )*};
+}
+references!(Callable Callables);
+
+impl<F: 'static, K: 'static> Words for Callable<F, K> {
+    const COUNT: usize = 1;
+    #[inline(always)]
+    fn store(self, words: &mut [u32]) {
+        self.index.store(words);
+    }
+    #[inline(always)]
+    unsafe fn load(words: &[u32]) -> Self {
+        // SAFETY: a `Callable` of this type was stored.
+        unsafe { Self::from_raw(u32::load(words)) }
+    }
+}
+
+impl<F: 'static, K: 'static> Words for Callables<F, K> {
+    const COUNT: usize = 2;
+    #[inline(always)]
+    fn store(self, words: &mut [u32]) {
+        self.to_raw().store(words);
+    }
+    #[inline(always)]
+    unsafe fn load(words: &[u32]) -> Self {
+        // SAFETY: `Callables` of this type were stored.
+        unsafe {
+            let [first, len] = Words::load(words);
+            Self::from_raw(first, len)
+        }
+    }
+}
+
+impl<F, K> core::fmt::Debug for Callable<F, K> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "Callable({})", self.index)
+    }
+}
+
+impl<F, K> core::fmt::Debug for Callables<F, K> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "Callables({} to {})", self.first, self.first + self.len)
+    }
+}
+
+impl<F, K> Callable<F, K> {
+    /// By its index in the callables section; for backends.
+    ///
+    /// # Safety
+    /// In the tables of the launches that get it, the record is there, of a program with signature `F` and kind `K`.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub const unsafe fn from_raw(index: u32) -> Self {
+        Self { index, types: PhantomData }
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    pub const fn to_raw(self) -> u32 {
+        self.index
+    }
+}
+
+impl<F, K> Callables<F, K> {
+    /// By the indices `first..first + len` of the callables section; for backends.
+    ///
+    /// # Safety
+    /// As for [`Callable::from_raw`], each of them.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub const unsafe fn from_raw(first: u32, len: u32) -> Self {
+        Self { first, len, types: PhantomData }
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    pub const fn to_raw(self) -> [u32; 2] {
+        [self.first, self.len]
+    }
+
+    /// How many there are.
+    #[inline(always)]
+    pub const fn len(self) -> u32 {
+        self.len
+    }
+
+    /// Whether there is none.
+    #[inline(always)]
+    pub const fn is_empty(self) -> bool {
+        self.len == 0
+    }
+
+    /// Number `index` of the table.
+    ///
+    /// # Panics
+    /// Ends the program if `index >= len`.
+    #[inline(always)]
+    pub fn get(self, index: u32) -> Callable<F, K> {
+        if index >= self.len {
+            // As for views: the device has no use for the message.
+            #[cfg(target_arch = "nvptx64")]
+            crate::machine::trap();
+            #[cfg(not(target_arch = "nvptx64"))]
+            out_of_range(index, self.len);
+        }
+        Callable { index: self.first + index, types: PhantomData }
+    }
+}
+
+#[cfg(not(target_arch = "nvptx64"))]
+#[cold]
+#[inline(never)]
+fn out_of_range(index: u32, len: u32) -> ! {
+    panic!("callable {index} is out of range: the table has {len}")
+}

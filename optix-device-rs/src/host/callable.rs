@@ -1,0 +1,114 @@
+//! What an application holds of a callable: the host twins of `Callable` and `Callables`.
+
+use super::{DeviceId, KeepAlive, View};
+use crate::callable::{Callable, CallableKind, Callables, Signature};
+use core::marker::PhantomData;
+use std::any::Any;
+use std::sync::Arc;
+
+/// A record of the callables section: a callable with its data. The host twin of [`Callable`]; a clone is the same record.
+pub struct CallableRecord<F, K> {
+    range: Range,
+    types: PhantomData<fn() -> (F, K)>,
+}
+
+/// Records of the callables section one behind the other: the host twin of [`Callables`]. A clone is the same table.
+pub struct CallableTable<F, K> {
+    range: Range,
+    types: PhantomData<fn() -> (F, K)>,
+}
+
+/// Records of a scene.
+#[derive(Clone)]
+struct Range {
+    first: u32,
+    len: u32,
+    device: DeviceId,
+    scene: Arc<dyn Any + Send + Sync>,
+}
+
+impl Range {
+    fn keep(&self, keep: &mut KeepAlive) {
+        keep.devices.push((self.device, "callable"));
+        keep.owners.push(self.scene.clone());
+    }
+}
+
+macro_rules! owners {
+    ($($name:ident)*) => {$(
+        impl<F, K> Clone for $name<F, K> {
+            fn clone(&self) -> Self {
+                Self { range: self.range.clone(), types: PhantomData }
+            }
+        }
+
+        impl<F, K> core::fmt::Debug for $name<F, K> {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                let Range { first, len, .. } = self.range;
+                write!(f, concat!(stringify!($name), "({} to {})"), first, first + len)
+            }
+        }
+    )*};
+}
+owners!(CallableRecord CallableTable);
+
+impl<F, K> CallableRecord<F, K> {
+    /// For scenes: record `index` of the callables section, on `device`; `scene` tells launches which scene's it is.
+    ///
+    /// # Safety
+    /// Launches that keep `scene` have that record, of a program with signature `F` and kind `K`.
+    #[doc(hidden)]
+    pub unsafe fn new(index: u32, device: DeviceId, scene: Arc<dyn Any + Send + Sync>) -> Self {
+        Self { range: Range { first: index, len: 1, device, scene }, types: PhantomData }
+    }
+
+    /// Its index in the callables section of its scene.
+    pub fn index(&self) -> u32 {
+        self.range.first
+    }
+
+    /// What [`CallableRecord::new`] was given as `scene`, if it is a `T`.
+    #[doc(hidden)]
+    pub fn owner<T: Any>(&self) -> Option<&T> {
+        self.range.scene.downcast_ref()
+    }
+}
+
+impl<F, K> CallableTable<F, K> {
+    /// For scenes: `len` records from `first` on; see [`CallableRecord::new`].
+    ///
+    /// # Safety
+    /// As there, for each record.
+    #[doc(hidden)]
+    pub unsafe fn new(first: u32, len: u32, device: DeviceId, scene: Arc<dyn Any + Send + Sync>) -> Self {
+        Self { range: Range { first, len, device, scene }, types: PhantomData }
+    }
+
+    /// How many records it has.
+    pub fn len(&self) -> u32 {
+        self.range.len
+    }
+
+    /// Whether it has none.
+    pub fn is_empty(&self) -> bool {
+        self.range.len == 0
+    }
+}
+
+impl<F: Signature, K: CallableKind> View for Callable<F, K> {
+    type Owner = CallableRecord<F, K>;
+    fn of(owner: &CallableRecord<F, K>, keep: &mut KeepAlive) -> Self {
+        owner.range.keep(keep);
+        // SAFETY: `CallableRecord::new`; launches refuse what another scene's table has.
+        unsafe { Self::from_raw(owner.range.first) }
+    }
+}
+
+impl<F: Signature, K: CallableKind> View for Callables<F, K> {
+    type Owner = CallableTable<F, K>;
+    fn of(owner: &CallableTable<F, K>, keep: &mut KeepAlive) -> Self {
+        owner.range.keep(keep);
+        // SAFETY: `CallableTable::new`; launches refuse what another scene's table has.
+        unsafe { Self::from_raw(owner.range.first, owner.range.len) }
+    }
+}

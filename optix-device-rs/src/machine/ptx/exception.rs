@@ -1,0 +1,79 @@
+//! Throwing, and what an exception program asks (guide 13.14).
+
+use super::Cx;
+use crate::words::WordBuffer;
+use core::arch::asm;
+use core::ffi::{CStr, c_char};
+
+impl Cx {
+    /// Ends the launch index with a user exception. `count` is a constant at every call.
+    #[inline(always)]
+    pub fn throw(&self, code: u32, count: usize, details: &WordBuffer) -> ! {
+        let [d0, d1, d2, d3, d4, d5, d6, d7, ..] = details.0;
+        macro_rules! arm {
+            ($count:expr, [$($used:ident)*] [$($unused:ident)*]) => {
+                if $count == count!($($used)*) {
+                    // SAFETY: the context may throw, and the pipeline's options allow user exceptions.
+                    unsafe {
+                        asm!(
+                            concat!(
+                                "call _optix_throw_exception_", arm!(@n $($used)*), ", ({code}",
+                                $(", {", stringify!($used), "}",)*
+                                ");"
+                            ),
+                            code = in(reg32) code,
+                            $($used = in(reg32) $used,)*
+                            options(nostack, preserves_flags)
+                        )
+                    };
+                }
+            };
+            (@n) => { "0" };
+            (@n d0) => { "1" };
+            (@n d0 d1) => { "2" };
+            (@n d0 d1 d2) => { "3" };
+            (@n d0 d1 d2 d3) => { "4" };
+            (@n d0 d1 d2 d3 d4) => { "5" };
+            (@n d0 d1 d2 d3 d4 d5) => { "6" };
+            (@n d0 d1 d2 d3 d4 d5 d6) => { "7" };
+            (@n d0 d1 d2 d3 d4 d5 d6 d7) => { "8" };
+        }
+        by_count!(arm, count, [] [d0 d1 d2 d3 d4 d5 d6 d7]);
+        super::trap()
+    }
+
+    #[inline(always)]
+    pub fn exception_code(&self) -> i32 {
+        get_u32!("_optix_get_exception_code").cast_signed()
+    }
+
+    /// The first `count` details; the others are zero.
+    #[inline(always)]
+    pub fn exception_details(&self, count: usize) -> WordBuffer {
+        let mut words = WordBuffer::ZERO;
+        macro_rules! get {
+            ($($i:literal)*) => {$(
+                if count > $i {
+                    words.0[$i] = get_u32!(concat!("_optix_get_exception_detail_", $i));
+                }
+            )*};
+        }
+        get!(0 1 2 3 4 5 6 7);
+        words
+    }
+
+    #[inline(always)]
+    pub fn exception_line(&self) -> Option<&CStr> {
+        let address: u64;
+        // SAFETY: pure query.
+        unsafe {
+            asm!(
+                "call ({a}), _optix_get_exception_line_info, ();",
+                a = out(reg64) address,
+                options(pure, nomem, nostack, preserves_flags)
+            )
+        };
+        // SAFETY: null, or a text with a NUL at its end that lives as long as the pipeline.
+        (address != 0).then(|| unsafe { CStr::from_ptr(address as *const c_char) })
+    }
+}

@@ -1,0 +1,55 @@
+//! Exceptions (guide 13.14): thrown by unwinding out of all programs of a launch index, and what is said of those that no
+//! exception program is told of.
+
+use super::Job;
+use glam::UVec3;
+use optix_device_rs::exception::TRACE_DEPTH_EXCEEDED;
+use optix_device_rs::host::ExceptionState;
+use std::panic::resume_unwind;
+use std::sync::{Mutex, PoisonError};
+
+/// As many as OptiX prints.
+const REPORTED: usize = 5;
+
+/// What unwinds.
+pub(super) struct Thrown(pub ExceptionState);
+
+/// Ends the launch index with an exception. No panic hook runs.
+#[cold]
+pub(super) fn throw(exception: ExceptionState) -> ! {
+    resume_unwind(Box::new(Thrown(exception)))
+}
+
+/// The first exceptions of a launch, by launch index, that no program was told of.
+#[derive(Default)]
+pub(super) struct Unhandled(Mutex<Vec<([u32; 3], String)>>);
+
+impl Unhandled {
+    pub fn add(&self, job: &Job<'_>, index: UVec3, program: &str, exception: &ExceptionState) {
+        let [x, y, z] = index.to_array();
+        let text = format!("{} at launch index {:?}, by {program}", describe(job, exception), [x, y, z]);
+        let text = match &exception.line {
+            Some(line) => format!("{text} ({})", line.to_string_lossy()),
+            None => text,
+        };
+        let mut reports = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let at = reports.partition_point(|(other, _)| *other < [z, y, x]);
+        reports.insert(at, ([z, y, x], text));
+        reports.truncate(REPORTED);
+    }
+
+    pub fn reports(self) -> Vec<String> {
+        let reports = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+        reports.into_iter().map(|(_, text)| text).collect()
+    }
+}
+
+fn describe(job: &Job<'_>, exception: &ExceptionState) -> String {
+    let exceptions = &job.description.exceptions;
+    let Ok(code) = u32::try_from(exception.code) else {
+        let what = if exception.code == TRACE_DEPTH_EXCEEDED { "trace depth exceeded" } else { "exception of OptiX" };
+        return format!("{what} (code {})", exception.code);
+    };
+    let name = exceptions.variants.iter().find(|(known, _)| *known == code).map_or("?", |(_, name)| name);
+    format!("{}::{name} (code {code}, details {:x?})", exceptions.throws.unwrap_or("?"), exception.details)
+}

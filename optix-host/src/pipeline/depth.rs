@@ -1,0 +1,264 @@
+//! Which programs a launch reaches, and how deep their calls nest (guide 6.7, 6.8).
+
+use super::ptx::{self, PtxEntry};
+use crate::{Error, Result};
+use optix_device_rs::host::PipelineDescription;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Deepest nesting of trace calls (guide 12).
+const MAX_TRACE_DEPTH: u32 = 31;
+/// Deepest nesting of callables where neither the declaration nor the programs say one: as deep as `pipeline!` allows.
+const MAX_CALLABLE_DEPTH: u32 = 31;
+
+const CALL_DIRECT: &str = "_optix_call_direct_callable";
+const CALL_CONTINUATION: &str = "_optix_call_continuation_callable";
+
+/// A program that a launch can reach.
+pub(crate) struct Reached {
+    pub name: &'static str,
+    place: Place,
+}
+
+/// When it runs.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    RayGen,
+    /// Closest-hit or miss, for a ray type.
+    Shading(usize),
+    /// Any-hit or intersection, for a ray type.
+    Traversal(usize),
+    Direct,
+    Continuation,
+    Exception,
+}
+
+/// The programs that this pipeline needs for the hit groups `groups` and the callables `callables`.
+pub(crate) fn needed_entries(
+    description: &PipelineDescription,
+    groups: &BTreeSet<usize>,
+    callables: &BTreeSet<usize>,
+) -> Vec<Reached> {
+    let mut entries: Vec<Reached> = Vec::new();
+    let mut add = |name, place| {
+        if !entries.iter().any(|e| e.name == name && e.place == place) {
+            entries.push(Reached { name, place });
+        }
+    };
+    for raygen in description.raygen {
+        add(raygen.entry.name, Place::RayGen);
+    }
+    for (ray, of) in description.rays.iter().enumerate() {
+        if let Some(miss) = of.miss {
+            add(miss.entry.name, Place::Shading(ray));
+        }
+        for &group in groups {
+            let programs = description.hitgroups[group].rays[ray];
+            if let Some(entry) = programs.closesthit {
+                add(entry.name, Place::Shading(ray));
+            }
+            for entry in [programs.anyhit, programs.intersection].into_iter().flatten() {
+                add(entry.name, Place::Traversal(ray));
+            }
+        }
+    }
+    for callable in callables.iter().map(|&index| &description.callables[index]) {
+        add(callable.entry.name, if callable.continuation { Place::Continuation } else { Place::Direct });
+    }
+    if let Some(program) = description.exceptions.program {
+        add(program.entry.name, Place::Exception);
+    }
+    entries
+}
+
+/// Their entries in the PTX.
+pub(crate) fn reached_entries<'a>(entries: &'a [Reached], ptx: &'a str) -> impl Iterator<Item = PtxEntry<'a>> {
+    ptx::entries(ptx).into_iter().filter(|entry| entries.iter().any(|reached| reached.name == entry.name))
+}
+
+/// How deep calls nest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Depths {
+    /// Trace calls.
+    pub trace: u32,
+    /// Whether the trace depth is what the declaration says, and not what follows from the programs.
+    pub trace_is_a_promise: bool,
+    /// Continuation callables.
+    pub continuation: u32,
+    /// Direct callables below any-hit and intersection programs.
+    pub direct_from_traversal: u32,
+    /// Direct callables below other programs.
+    pub direct_from_state: u32,
+}
+
+impl Depths {
+    /// From what the declaration says, and from the programs in the PTX where it says nothing.
+    pub fn new(
+        description: &PipelineDescription,
+        entries: &[Reached],
+        ptx: Option<&str>,
+        note: &mut impl FnMut(&'static str, String, String),
+    ) -> Result<Self> {
+        let error = |what: String| Error::Pipeline { pipeline: description.name, what };
+        let programs = ptx.map(|text| programs(entries, text).map_err(error)).transpose()?;
+        let programs = programs.as_deref();
+        let (trace, why) = trace(description, programs).map_err(error)?;
+        note("trace depth", trace.to_string(), why);
+        let mut depths = Self {
+            trace,
+            trace_is_a_promise: description.trace_depth.is_some() || programs.is_none(),
+            continuation: 0,
+            direct_from_traversal: 0,
+            direct_from_state: 0,
+        };
+        if !description.callables.is_empty() {
+            depths.add_callables(description, programs).map_err(error)?;
+            let Self { continuation, direct_from_traversal, direct_from_state, .. } = depths;
+            note(
+                "callable depth",
+                format!(
+                    "{continuation} continuation, {direct_from_state} direct, {direct_from_traversal} during traversal"
+                ),
+                match (description.callable_depth, programs) {
+                    (Some(_), _) => "stated in the pipeline's declaration, where callables call each other",
+                    (None, Some(_)) => "callables do not call each other",
+                    (None, None) => "the most there is: without PTX it is not known which programs call",
+                }
+                .into(),
+            );
+        }
+        Ok(depths)
+    }
+
+    fn add_callables(
+        &mut self,
+        description: &PipelineDescription,
+        programs: Option<&[Program<'_>]>,
+    ) -> Result<(), String> {
+        let calls = |function: &str, from: fn(Place) -> bool| {
+            programs.is_none_or(|programs| programs.iter().any(|p| from(p.place) && p.entry.text.contains(function)))
+        };
+        let depth = |kind: &str, nested: bool| match (description.callable_depth, programs) {
+            (Some(depth), _) if nested => Ok(depth),
+            (None, None) => Ok(MAX_CALLABLE_DEPTH),
+            _ if !nested => Ok(1),
+            _ => Err(format!(
+                "its {kind} callables call each other, so nothing bounds how deep: state `callable_depth: N` in `pipeline!`"
+            )),
+        };
+        let is_state = |place| matches!(place, Place::RayGen | Place::Shading(_) | Place::Continuation);
+        if calls(CALL_CONTINUATION, is_state) {
+            self.continuation = depth("continuation", calls(CALL_CONTINUATION, |place| place == Place::Continuation))?;
+        }
+        let nested = calls(CALL_DIRECT, |place| place == Place::Direct);
+        if calls(CALL_DIRECT, |place| matches!(place, Place::Traversal(_))) {
+            self.direct_from_traversal = depth("direct", nested)?;
+        }
+        if calls(CALL_DIRECT, is_state) {
+            self.direct_from_state = depth("direct", nested)?;
+        }
+        Ok(())
+    }
+
+    /// The most callables that may run inside one another between two trace calls.
+    pub fn callables(&self) -> u32 {
+        self.continuation + self.direct_from_state.max(self.direct_from_traversal)
+    }
+}
+
+/// A program with its code.
+struct Program<'a> {
+    place: Place,
+    entry: PtxEntry<'a>,
+    /// The ray types that it traces.
+    traces: BTreeSet<usize>,
+}
+
+fn programs<'a>(entries: &[Reached], ptx: &'a str) -> Result<Vec<Program<'a>>, String> {
+    let by_name: BTreeMap<_, _> = ptx::entries(ptx).into_iter().map(|e| (e.name, e)).collect();
+    let program = |reached: &Reached| {
+        let entry = by_name.get(reached.name).cloned().ok_or_else(|| {
+            format!("the PTX has no entry {}: it is of another build or crate than the host's pipeline", reached.name)
+        })?;
+        let types = ptx::traced_types(&entry).ok_or_else(|| {
+            format!(
+                "the payload type of a trace call in {} is not a constant, so the trace depth is not known: state \
+                 `trace_depth: N` in `pipeline!`",
+                reached.name
+            )
+        })?;
+        let traces = types.into_iter().map(|mask| mask.trailing_zeros() as usize).collect();
+        Ok(Program { place: reached.place, entry, traces })
+    };
+    entries.iter().map(program).collect()
+}
+
+/// How deep trace calls nest: the longest path from ray generation over ray types, where a ray type leads to those that its
+/// programs trace, and a call of a continuation callable to those that any of them traces.
+fn trace(description: &PipelineDescription, programs: Option<&[Program<'_>]>) -> Result<(u32, String), String> {
+    if let Some(depth) = description.trace_depth {
+        return match depth {
+            0..=MAX_TRACE_DEPTH => Ok((depth, "stated in the pipeline's declaration".into())),
+            _ => Err(format!("trace_depth {depth} is more than {MAX_TRACE_DEPTH} (guide 12)")),
+        };
+    }
+    let Some(programs) = programs else {
+        return Ok((MAX_TRACE_DEPTH, "the most there is: without PTX it is not known which programs trace".into()));
+    };
+    let rays = description.rays.len();
+    let traced = |program: &Program<'_>| program.traces.iter().copied().filter(|&r| r < rays).collect::<BTreeSet<_>>();
+    let by_callables: BTreeSet<usize> =
+        programs.iter().filter(|p| p.place == Place::Continuation).flat_map(traced).collect();
+    let mut leads_to = vec![BTreeSet::new(); rays];
+    let mut roots = BTreeSet::new();
+    for program in programs {
+        let to = match program.place {
+            Place::RayGen => &mut roots,
+            Place::Shading(ray) => &mut leads_to[ray],
+            // Those trace nothing, or count where they are called.
+            _ => continue,
+        };
+        to.extend(traced(program));
+        if program.entry.text.contains(CALL_CONTINUATION) {
+            to.extend(&by_callables);
+        }
+    }
+    match longest(&leads_to, &roots, &mut vec![false; rays]) {
+        Some(depth) => Ok((depth, "the longest chain of trace calls in the compiled programs".into())),
+        None => Err(
+            "its programs trace rays recursively, so nothing bounds the trace depth: state `trace_depth: N` in `pipeline!`"
+                .into(),
+        ),
+    }
+}
+
+/// The longest path from any of `from`; `None` if there is a cycle.
+fn longest(leads_to: &[BTreeSet<usize>], from: &BTreeSet<usize>, on_path: &mut Vec<bool>) -> Option<u32> {
+    let mut depth = 0;
+    for &ray in from {
+        if on_path[ray] {
+            return None;
+        }
+        on_path[ray] = true;
+        depth = depth.max(1 + longest(leads_to, &leads_to[ray], on_path)?);
+        on_path[ray] = false;
+    }
+    Some(depth)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn longest_chain_of_ray_types() {
+        let set = |items: &[usize]| items.iter().copied().collect::<BTreeSet<_>>();
+        let path = |edges: &[&[usize]], roots: &[usize]| {
+            let edges: Vec<_> = edges.iter().map(|e| set(e)).collect();
+            longest(&edges, &set(roots), &mut vec![false; edges.len()])
+        };
+        assert_eq!(path(&[&[1], &[]], &[0]), Some(2));
+        assert_eq!(path(&[&[], &[]], &[0, 1]), Some(1));
+        assert_eq!(path(&[&[1], &[0]], &[0]), None);
+        assert_eq!(path(&[&[1], &[1]], &[]), Some(0));
+    }
+}

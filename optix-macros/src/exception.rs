@@ -1,0 +1,125 @@
+//! `#[derive(UserException)]`.
+
+use crate::data::copy_bound;
+use crate::support::{Errors, allow, crate_of, moved, name, place_of, ungroup};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote, quote_spanned};
+use syn::{Data, DataEnum, DeriveInput, Ident, Index, Member, Path, Type, Variant};
+
+pub fn derive(input: &DeriveInput) -> TokenStream {
+    let mut errors = Errors::default();
+    let krate = crate_of(&input.attrs, &mut errors);
+    let what = "what programs throw";
+    let variants = match &input.data {
+        Data::Enum(DataEnum { variants, .. }) => variants,
+        Data::Struct(data) => {
+            errors.at(
+                data.struct_token,
+                format!("{what} is an enum, a variant for each thing that goes wrong, not a struct"),
+            );
+            return errors.into_tokens();
+        }
+        Data::Union(data) => {
+            errors.at(
+                data.union_token,
+                format!("{what} is an enum, a variant for each thing that goes wrong, not a union"),
+            );
+            return errors.into_tokens();
+        }
+    };
+    if !input.generics.params.is_empty() {
+        errors.at(&input.generics, format!("{what} can't be generic: a pipeline throws exceptions of one type"));
+    }
+    if variants.is_empty() {
+        errors.at(&input.ident, format!("`{}` has no variants, so it could never be thrown", input.ident));
+    }
+    for ty in variants.iter().flat_map(|variant| &variant.fields).map(|field| &field.ty) {
+        if matches!(ungroup(ty), Type::Reference(_)) {
+            errors.at(ty, "details of an exception are values: the launch index they were borrowed from has ended");
+        }
+    }
+    if !errors.is_empty() {
+        return errors.into_tokens();
+    }
+    emit(&input.ident, &krate, &variants.iter().collect::<Vec<_>>())
+}
+
+fn emit(ident: &Ident, krate: &Path, variants: &[&Variant]) -> TokenStream {
+    let (allow, enum_name, copy) = (allow(), name(ident), copy_bound(ident));
+    let mut consts = TokenStream::new();
+    let (mut names, mut encode, mut decode, mut most) = (Vec::new(), Vec::new(), Vec::new(), quote!(0));
+    for (i, variant) in variants.iter().enumerate() {
+        let (code, words) = (format_ident!("__CODE_{i}"), format_ident!("__WORDS_{i}"));
+        // As rustc counts discriminants.
+        let value = match (&variant.discriminant, i.checked_sub(1)) {
+            (Some((_, value)), _) => quote!({ #value } as ::core::primitive::i64),
+            (None, Some(before)) => {
+                let before = format_ident!("__CODE_{before}");
+                quote!(#before + 1)
+            }
+            (None, None) => quote!(0),
+        };
+        let mut end = quote!(0);
+        let (mut patterns, mut stores, mut loads) = (Vec::new(), Vec::new(), Vec::new());
+        for (k, field) in variant.fields.iter().enumerate() {
+            let (ty, span) = (&field.ty, place_of(&field.ty));
+            let member = match &field.ident {
+                Some(ident) => Member::Named(ident.clone()),
+                None => Member::Unnamed(Index { index: k as u32, span }),
+            };
+            let (value, krate) = (format_ident!("__value_{k}"), moved(krate, span));
+            let function = |name: &str| {
+                let name = Ident::new(name, span);
+                quote_spanned!(span=> <#ty as #krate::words::Words>::#name)
+            };
+            let (store, load, count) = (function("store"), function("load"), function("COUNT"));
+            patterns.push(quote!(#member: #value));
+            let begin = end.clone();
+            end = quote!(#end + #count);
+            stores.push(quote!(#store(#value, #krate::words::part_mut(__words, #begin, #end));));
+            loads.push(quote!(#member: unsafe { #load(#krate::words::part(__words, #begin, #end)) }));
+        }
+        let (variant_ident, variant_name, span) = (&variant.ident, name(&variant.ident), place_of(&variant.ident));
+        let there = moved(krate, span);
+        consts.extend(quote! {
+            const #code: ::core::primitive::i64 = #value;
+            const #words: ::core::primitive::usize = #end;
+        });
+        consts.extend(quote_spanned! {span=>
+            const _: () = #there::check::exception(#enum_name, #variant_name, #code, #words);
+        });
+        names.push(quote!((#code as ::core::primitive::u32, #variant_name)));
+        encode.push(quote!(Self::#variant_ident { #(#patterns),* } => { #(#stores)* #code as ::core::primitive::u32 }));
+        decode.push(quote!(#code => ::core::option::Option::Some(Self::#variant_ident { #(#loads),* })));
+        most = quote!(#krate::check::larger(#most, #words));
+    }
+    quote! {
+        #allow
+        const _: () = {
+            #consts
+            // SAFETY: `check::exception` has looked at every variant.
+            #[automatically_derived]
+            unsafe impl #krate::exception::UserException for #ident #copy {
+                const NAME: &'static ::core::primitive::str = #enum_name;
+                const DETAILS: ::core::primitive::usize = #most;
+                const VARIANTS: &'static [(::core::primitive::u32, &'static ::core::primitive::str)] = &[#(#names),*];
+                #[inline(always)]
+                fn encode(self, __words: &mut [::core::primitive::u32]) -> ::core::primitive::u32 {
+                    match self {
+                        #(#encode)*
+                    }
+                }
+                #[inline(always)]
+                unsafe fn decode(
+                    __code: ::core::primitive::u32,
+                    __words: &[::core::primitive::u32],
+                ) -> ::core::option::Option<Self> {
+                    match __code as ::core::primitive::i64 {
+                        #(#decode,)*
+                        _ => ::core::option::Option::None,
+                    }
+                }
+            }
+        };
+    }
+}

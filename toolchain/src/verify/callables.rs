@@ -1,0 +1,44 @@
+//! Calls of callables, and throwing: that only programs do so that may (guide 13).
+
+use super::code::Function;
+use super::facts::{Kind, Pipeline, Program};
+use super::finding::{Finding, Rule};
+use crate::ptx::calls::Call;
+
+const DIRECT: &str = "_optix_call_direct_callable";
+const CONTINUATION: &str = "_optix_call_continuation_callable";
+const THROW: &str = "_optix_throw_exception_";
+
+/// Whether it gives the address of a callable.
+pub(super) fn is_call(call: &Call<'_>) -> bool {
+    matches!(call.function, DIRECT | CONTINUATION)
+}
+
+pub(super) fn check(
+    function: &Function<'_>,
+    program: &Program,
+    pipeline: &Pipeline,
+    item: &str,
+    findings: &mut Vec<Finding>,
+) {
+    for call in &function.calls {
+        let allowed = match call.function {
+            DIRECT => program.kind != Kind::Exception,
+            // The same programs: both suspend the caller.
+            CONTINUATION => program.kind.may_trace(),
+            name if name.starts_with(THROW) => program.kind != Kind::Exception,
+            _ => continue,
+        };
+        let mut error = |message: &str| findings.push(Finding::error(Rule::Callable, function.place(item), message));
+        let (does, is_throw) = match call.function {
+            DIRECT => ("calls a direct callable", false),
+            CONTINUATION => ("calls a continuation callable", false),
+            _ => ("throws an exception", true),
+        };
+        if !allowed {
+            error(&format!("{does}, which OptiX does not allow in a program of its kind"));
+        } else if is_throw && pipeline.throws.is_none() {
+            error(&format!("throws an exception, but `{}` does not say what its programs throw", pipeline.name));
+        }
+    }
+}
