@@ -117,8 +117,14 @@ impl<'a> Session<'a> {
         let ptx = self.own.join(format!("{}.ptx", wrapper.library));
         self.run_cargo(&wrapper, &target_dir, &ptx)?;
 
-        let text = util::read(&ptx)?;
-        let module = ptx::Module::read(&text).map_err(|problem| Error::Ptx { path: ptx.clone(), problem })?;
+        let mut text = util::read(&ptx)?;
+        let mut written = ptx;
+        if self.shaders.ftz {
+            text = ptx::ftz::flushed(&text);
+            written.set_extension("ftz.ptx");
+            util::write_if_changed(&written, &text)?;
+        }
+        let module = ptx::Module::read(&text).map_err(|problem| Error::Ptx { path: written.clone(), problem })?;
         let mut inputs = sources(&target_dir, &wrapper)?;
         let local = self.graph.packages.iter().filter(|package| package.source.is_none());
         inputs.extend(local.map(|package| package.manifest.clone()));
@@ -129,7 +135,7 @@ impl<'a> Session<'a> {
             name: self.package.library.clone().unwrap_or_else(|| self.package.name.clone()),
             entries: module.entries.iter().map(|name| name.to_string()).collect(),
             functions: module.functions.iter().map(|name| name.to_string()).collect(),
-            ptx,
+            ptx: written,
             text,
             inputs,
         })

@@ -1,9 +1,10 @@
-//! A small JSON reader, for what `cargo metadata` prints.
+//! A small JSON reader, for what `cargo metadata` prints, and writer, for `cargo optix`.
 //!
 //! It is here because this crate is a build dependency of every program with shaders: reading a few fields must not
 //! cost them a serialisation framework.
 
 use std::collections::BTreeMap;
+use std::fmt::{self, Write};
 
 /// A JSON value.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +37,16 @@ impl Json {
         let value = reader.value()?;
         reader.space();
         if reader.at < text.len() { Err(reader.expected("the end")) } else { Ok(value) }
+    }
+
+    /// An object.
+    ///
+    /// ```
+    /// use optix_toolchain::json::Json;
+    /// assert_eq!(Json::object([("a", Json::Number(1.0)), ("b", Json::Null)]).to_string(), r#"{"a":1,"b":null}"#);
+    /// ```
+    pub fn object<K: Into<String>>(members: impl IntoIterator<Item = (K, Json)>) -> Self {
+        Self::Object(members.into_iter().map(|(key, value)| (key.into(), value)).collect())
     }
 
     /// The member `key`, or `Null` where there is none, so that look-ups chain.
@@ -79,6 +90,47 @@ impl Json {
             _ => None,
         }
     }
+}
+
+/// On one line.
+impl fmt::Display for Json {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Null => f.write_str("null"),
+            Self::Bool(value) => write!(f, "{value}"),
+            Self::Number(number) if number.is_finite() => write!(f, "{number}"),
+            Self::Number(_) => f.write_str("null"),
+            Self::String(text) => write_string(text, f),
+            Self::Array(items) => {
+                f.write_str("[")?;
+                for (i, item) in items.iter().enumerate() {
+                    write!(f, "{}{item}", if i == 0 { "" } else { "," })?;
+                }
+                f.write_str("]")
+            }
+            Self::Object(members) => {
+                f.write_str("{")?;
+                for (i, (key, value)) in members.iter().enumerate() {
+                    f.write_str(if i == 0 { "" } else { "," })?;
+                    write_string(key, f)?;
+                    write!(f, ":{value}")?;
+                }
+                f.write_str("}")
+            }
+        }
+    }
+}
+
+fn write_string(text: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    f.write_char('"')?;
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => write!(f, "\\{c}")?,
+            c if c.is_control() => write!(f, "\\u{:04x}", c as u32)?,
+            c => f.write_char(c)?,
+        }
+    }
+    f.write_char('"')
 }
 
 /// Deeper nesting than any cargo writes is refused, so that no input can exhaust the stack.

@@ -30,7 +30,7 @@
 //! | check that the PTX has entries and no unresolved symbol | [`mod@ptx`] |
 //!
 //! The module `verify`, of the feature `cli`, goes further: for `cargo optix verify` it compares the PTX with what the host
-//! computes from the same `pipeline!`.
+//! computes from the same `pipeline!`. The module `inspect` is behind `cargo optix inspect`: what programs cost.
 //!
 //! Everything is under `<target directory>/optix`, which `cargo clean` removes.
 
@@ -48,7 +48,9 @@ mod options;
 pub mod ptx;
 mod sysroot;
 mod util;
-// Not for build scripts, which it would make slower.
+// Not for build scripts, which they would make slower.
+#[cfg(feature = "cli")]
+pub mod inspect;
 #[cfg(feature = "cli")]
 pub mod verify;
 mod wrapper;

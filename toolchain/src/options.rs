@@ -26,8 +26,10 @@ pub const DEFAULT_ARCH: &str = "sm_75";
 pub struct Shaders {
     pub(crate) path: PathBuf,
     pub(crate) arch: String,
-    pub(crate) contract: bool,
-    pub(crate) approximate: bool,
+    pub(crate) fmad: bool,
+    pub(crate) ftz: bool,
+    pub(crate) prec_div: bool,
+    pub(crate) prec_sqrt: bool,
     pub(crate) line_info: bool,
     pub(crate) features: Vec<String>,
     pub(crate) default_features: bool,
@@ -41,8 +43,10 @@ impl Shaders {
         Self {
             path: path.as_ref().to_path_buf(),
             arch: DEFAULT_ARCH.to_string(),
-            contract: true,
-            approximate: false,
+            fmad: true,
+            ftz: false,
+            prec_div: true,
+            prec_sqrt: true,
             line_info: false,
             features: Vec::new(),
             default_features: true,
@@ -57,15 +61,26 @@ impl Shaders {
     }
 
     /// Whether `a * b + c` may become one `fma`, which rounds once instead of twice: nvcc's `-fmad`. Default: true.
-    pub fn contract(mut self, contract: bool) -> Self {
-        self.contract = contract;
+    pub fn fmad(mut self, on: bool) -> Self {
+        self.fmad = on;
         self
     }
 
-    /// Whether `f32` division and square root may be the faster approximate forms, with an error of at most 2 ulp and
-    /// 3 ulp instead of 0.5: nvcc's `-prec-div=false -prec-sqrt=false`. Default: false.
-    pub fn approximate(mut self, approximate: bool) -> Self {
-        self.approximate = approximate;
+    /// Whether `f32` instructions take and give zero for subnormal numbers: nvcc's `-ftz`. Default: false.
+    pub fn ftz(mut self, on: bool) -> Self {
+        self.ftz = on;
+        self
+    }
+
+    /// Whether `f32` division is correctly rounded, instead of within 2 ulp: nvcc's `-prec-div`. Default: true.
+    pub fn prec_div(mut self, on: bool) -> Self {
+        self.prec_div = on;
+        self
+    }
+
+    /// Whether the `f32` square root is correctly rounded, instead of within 1 ulp: nvcc's `-prec-sqrt`. Default: true.
+    pub fn prec_sqrt(mut self, on: bool) -> Self {
+        self.prec_sqrt = on;
         self
     }
 
@@ -117,9 +132,13 @@ impl Shaders {
         // part at a branch, so conditions are joined where that costs a few instructions. Peeling a loop copies the trace
         // calls in it, and each of those is a place where a program is cut in two.
         let mut llvm = String::from("-inline-threshold=100000 -bonus-inst-threshold=10 -unroll-peel-max-count=0");
-        llvm.push_str(&format!(" -nvptx-fma-level={}", if self.contract { 2 } else { 0 }));
-        if self.approximate {
-            llvm.push_str(" -nvptx-prec-divf32=1 -nvptx-prec-sqrtf32=0");
+        llvm.push_str(&format!(" -nvptx-fma-level={}", if self.fmad { 2 } else { 0 }));
+        // `div.full`, `sqrt.approx`. LLVM has no switch for `ftz`: see `ptx::ftz`.
+        if !self.prec_div {
+            llvm.push_str(" -nvptx-prec-divf32=1");
+        }
+        if !self.prec_sqrt {
+            llvm.push_str(" -nvptx-prec-sqrtf32=0");
         }
         vec![
             format!("--sysroot={}", sysroot.display()),
@@ -136,7 +155,8 @@ impl Shaders {
 
     /// Tells builds apart whose intermediate files must not be mixed.
     pub(crate) fn key(&self, dir: &Path) -> String {
-        let switches = format!("{}{}{}{}", self.contract, self.approximate, self.line_info, self.default_features);
+        let switches = [self.fmad, self.ftz, self.prec_div, self.prec_sqrt, self.line_info, self.default_features];
+        let switches = format!("{switches:?}");
         let dir = dir.to_string_lossy();
         let parts = [dir.as_ref(), self.arch.as_str(), switches.as_str()];
         util::hash(parts.into_iter().chain(self.features.iter().map(String::as_str)))

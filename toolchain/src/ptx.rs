@@ -4,6 +4,7 @@
 pub(crate) mod body;
 #[cfg(feature = "cli")]
 pub(crate) mod calls;
+pub(crate) mod ftz;
 
 use std::fmt;
 

@@ -54,10 +54,18 @@ fn ptx_is_what_a_person_would_write() {
     fs::remove_file(&built.ptx).expect("removable");
     assert_eq!(compile(&shaders).expect("it compiles once more").text, built.text);
 
-    let exact = Shaders::new(&shaders).contract(false).line_info(true).compile_in(common::area()).expect("it compiles");
+    let exact = Shaders::new(&shaders).fmad(false).line_info(true).compile_in(common::area()).expect("it compiles");
     let fused = |text: &str| text.matches("fma.rn.f32").count();
     assert!(fused(&exact.text) < fused(text), "only what asks for `fma` is fused");
     assert!(exact.text.contains("\t.loc\t"), "lines are known");
+
+    let rough = Shaders::new(&shaders).ftz(true).prec_div(false).prec_sqrt(false);
+    let rough = rough.compile_in(common::area()).expect("it compiles");
+    for op in ["fma.rn.ftz.f32", "sqrt.approx.ftz.f32", "cvt.rmi.ftz.f32.f32"] {
+        assert!(rough.text.contains(op), "{op}");
+    }
+    assert!(!rough.text.contains("sqrt.rn") && !rough.text.contains("fma.rn.f32"), "nothing is left as it was");
+    assert!(!rough.text.contains("rcp.rn") && !rough.text.contains("div.rn"), "no exact division");
 }
 
 #[test]

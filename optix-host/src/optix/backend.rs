@@ -1,10 +1,11 @@
 //! OptiX as a backend: it turns the scene's description and the plan into driver objects.
 
 use super::driver::{
-    self, AabbInput, Accel, AccelOptions, BoundValue, Context, ContextOptions, DeviceBuffer, Entry, GeometryFlags,
-    Indices, Instance, InstanceFlags, Intersection, LaunchArgs, LinkOptions, Module, ModuleOptions, PayloadSemantics,
-    PayloadType, Pipeline, PipelineOptions, PrimitiveKinds, ProgramGroup, Programs, Records, SbtIndices, SbtSection,
-    SbtSections, ShaderBindingTable as DeviceTable, Source, TraversableGraph, TriangleInput, stack::CallDepths,
+    self, AabbInput, Accel, AccelOptions, BoundValue, Context, ContextOptions, DebugLevel, DeviceBuffer, Entry,
+    GeometryFlags, Indices, Instance, InstanceFlags, Intersection, LaunchArgs, LinkOptions, Module, ModuleOptions,
+    PayloadSemantics, PayloadType, Pipeline, PipelineOptions, PrimitiveKinds, ProgramGroup, Programs, Records,
+    SbtIndices, SbtSection, SbtSections, ShaderBindingTable as DeviceTable, Source, TraversableGraph, TriangleInput,
+    stack::CallDepths,
 };
 use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, InstanceInput, Linked, Running, next_device_id};
 use crate::pipeline::{Graph, Plan};
@@ -179,7 +180,10 @@ impl OptixPipeline {
             bytes: bound.bytes.clone(),
             annotation: bound.field.name.into(),
         });
+        // Line information that was asked for when the shaders were compiled is kept for profilers.
+        let has_lines = ptx.lines().any(|line| line.trim_start().starts_with(".loc"));
         let module_options = ModuleOptions {
+            debug: if has_lines { DebugLevel::Minimal } else { DebugLevel::Default },
             bound_values: bound_values.collect(),
             payload_types: payloads.clone(),
             ..Default::default()

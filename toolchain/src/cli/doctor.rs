@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
+use optix_toolchain::inspect::ptxas::Ptxas;
 use optix_toolchain::{Candidate, DEFAULT_ARCH, DeviceCompiler, MINIMUM, Rejected, Why};
 
 use super::libraries::{self, Driver};
@@ -19,8 +20,8 @@ pub(super) fn run() -> Outcome {
     say!("");
     say!("code generators besides rustc's own (optional):");
     nvvm();
-    let ptxas = program_version("ptxas").map(|text| text.split("release ").last().unwrap_or_default().to_string());
-    report("ptxas", ptxas, "it is in the CUDA toolkit, and in `pip install nvidia-cuda-nvcc`");
+    let ptxas = Ptxas::find().map(|ptxas| format!("{}, {}", ptxas.program.display(), ptxas.version));
+    report("ptxas", ptxas.ok_or_else(String::new), Ptxas::MISSING);
     say!("");
     say!(
         "{}",

@@ -7,8 +7,10 @@ macro_rules! say {
 
 mod build;
 mod doctor;
+mod inspect;
 mod libraries;
 mod new;
+mod options;
 mod setup;
 mod test;
 mod verify;
@@ -40,9 +42,8 @@ enum Action {
         /// The oldest GPU architecture to run on.
         #[arg(long, value_name = "sm_XX", default_value = optix_toolchain::DEFAULT_ARCH)]
         arch: String,
-        /// The folder of one shader crate.
-        #[arg(long = "crate", value_name = "PATH")]
-        path: Option<PathBuf>,
+        #[command(flatten)]
+        options: options::Options,
     },
     /// Prove that the PTX of shader crates keeps the contracts of their pipelines. Exit code 1 if it does not.
     ///
@@ -52,9 +53,8 @@ enum Action {
         /// The oldest GPU architecture to run on.
         #[arg(long, value_name = "sm_XX", default_value = optix_toolchain::DEFAULT_ARCH)]
         arch: String,
-        /// The folder of one shader crate.
-        #[arg(long = "crate", value_name = "PATH")]
-        path: Option<PathBuf>,
+        #[command(flatten)]
+        options: options::Options,
         /// A function that may be called instead of inlined, by a part of its path. May be repeated.
         #[arg(long = "allow-function", value_name = "NAME")]
         allowed: Vec<String>,
@@ -62,6 +62,11 @@ enum Action {
         #[arg(long)]
         json: bool,
     },
+    /// Say what each program of shader crates costs: PTX size, instructions by class, calls, memory, registers.
+    ///
+    /// Counts are of PTX, as written; registers and spills are those of `ptxas`, where it is installed, with OptiX's device
+    /// functions replaced by loads and stores. Both compare builds; the compile log of OptiX tells what it used.
+    Inspect(inspect::How),
     /// Set up, then run every test of the workspace; those that need a GPU too if OptiX is here.
     Test {
         /// Further arguments of `cargo test --workspace`.
@@ -85,8 +90,9 @@ pub(crate) fn main() -> ExitCode {
     let outcome = match Arguments::parse_from(args).command {
         Action::Doctor => doctor::run(),
         Action::Setup => setup::run().map(|_| ExitCode::SUCCESS),
-        Action::Build { arch, path } => build::run(&arch, path),
-        Action::Verify { arch, path, allowed, json } => verify::run(&verify::Options { arch, allowed, json }, path),
+        Action::Build { arch, options } => build::run(&arch, &options),
+        Action::Verify { arch, options, allowed, json } => verify::run(&verify::How { arch, options, allowed, json }),
+        Action::Inspect(how) => inspect::run(&how),
         Action::Test { args } => test::run(&args),
         Action::New { path } => new::run(&path),
     };

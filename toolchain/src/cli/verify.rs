@@ -1,27 +1,29 @@
 //! `cargo optix verify`
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
-use optix_toolchain::Shaders;
+use optix_toolchain::json::Json;
 use optix_toolchain::verify::{Finding, Level, Rule, Verified};
 
+use super::options::Options;
 use super::{Outcome, build};
 
 /// How to verify.
-pub(super) struct Options {
+pub(super) struct How {
     pub arch: String,
+    pub options: Options,
     pub allowed: Vec<String>,
     pub json: bool,
 }
 
-pub(super) fn run(options: &Options, path: Option<PathBuf>) -> Outcome {
-    let (crates, area) = build::crates(path)?;
+pub(super) fn run(how: &How) -> Outcome {
+    let (crates, area) = build::crates(how.options.path.as_deref())?;
     let mut errors = 0;
     for path in &crates {
-        let shaders = Shaders::new(path).arch(&options.arch).quiet(options.json);
-        let verified = shaders.verify_in(&area, &options.allowed)?;
-        if options.json {
+        let shaders = how.options.shaders(path, &how.arch).quiet(how.json);
+        let verified = shaders.verify_in(&area, &how.allowed)?;
+        if how.json {
             verified.findings.iter().for_each(|finding| say!("{}", json(&verified.built.name, finding)));
         } else {
             report(path, &verified);
@@ -60,21 +62,14 @@ fn json(of: &str, finding: &Finding) -> String {
         Level::Error => "error",
         Level::Warning => "warning",
     };
-    let [of, item, message] = [of, &finding.item, &finding.message].map(string);
-    format!(r#"{{"crate":{of},"level":"{level}","rule":"{}","item":{item},"message":{message}}}"#, finding.rule.name())
-}
-
-fn string(text: &str) -> String {
-    let mut string = String::from('"');
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => string.extend(['\\', c]),
-            c if c.is_control() => string.push_str(&format!("\\u{:04x}", c as u32)),
-            c => string.push(c),
-        }
-    }
-    string.push('"');
-    string
+    let members = [
+        ("crate", of),
+        ("level", level),
+        ("rule", finding.rule.name()),
+        ("item", &finding.item),
+        ("message", &finding.message),
+    ];
+    Json::object(members.map(|(key, text)| (key, Json::String(text.to_string())))).to_string()
 }
 
 #[cfg(test)]

@@ -10,6 +10,8 @@ pub(crate) struct Body<'a> {
     pub is_entry: bool,
     /// Whether the signature declares parameters.
     pub has_parameters: bool,
+    /// From the name to the closing brace.
+    pub text: &'a str,
     pub statements: Vec<Statement<'a>>,
 }
 
@@ -47,16 +49,17 @@ impl Body<'_> {
     }
 }
 
-/// The text without comments and without line information, which has no `;` at its end.
+/// The text without comments, and with a `;` behind each `.loc`, so that it is a directive like the others.
 pub(crate) fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     for line in text.lines() {
-        let line = line.split_once("//").map_or(line, |(code, _)| code);
         let directive = line.split_whitespace().next();
-        if !matches!(directive, Some(".loc" | ".file")) {
-            plain.push_str(line);
-            plain.push('\n');
+        if directive == Some(".file") {
+            continue; // of the module; its path may hold a `//`
         }
+        let line = line.split_once("//").map_or(line, |(code, _)| code);
+        plain.push_str(line);
+        plain.push_str(if directive == Some(".loc") { ";\n" } else { "\n" });
     }
     plain
 }
@@ -76,7 +79,8 @@ pub(crate) fn bodies(text: &str) -> Vec<Body<'_>> {
                 let name = super::function_name(head);
                 let is_entry = is_entry || super::is_callable(name);
                 let parameters = head.rsplit_once('(').is_some_and(|(_, list)| list.contains(".param"));
-                bodies.push(Body { name, is_entry, has_parameters: parameters, statements });
+                let text = &signature[..signature.len() - rest.len()];
+                bodies.push(Body { name, is_entry, has_parameters: parameters, text, statements });
                 rest
             }
             None => tail.get(1..).unwrap_or_default(),
@@ -142,7 +146,9 @@ fn statement(text: &str) -> Option<Statement<'_>> {
         Some(guarded) => guarded.split_once(char::is_whitespace).unwrap_or((guarded, "")),
         None => ("", text),
     };
-    let (op, operands) = text.trim().split_once(char::is_whitespace).unwrap_or((text.trim(), ""));
+    let text = text.trim();
+    // nvcc leaves no space in `call(%r1),_optix_x,()`.
+    let (op, operands) = text.split_at(text.find(|c: char| c.is_whitespace() || c == '(').unwrap_or(text.len()));
     Some(Statement::Instruction(Instruction { guard, op, operands: operands.trim() }))
 }
 
@@ -189,6 +195,7 @@ mod tests {
             bodies[1].statements,
             [
                 Statement::Directive(".reg .b32 %r<3>"),
+                Statement::Directive(".loc 1 2 3"),
                 Statement::Label("$L__BB0_1"),
                 instruction("!%p1", "ld.v2.b32", "{%r1, %r2}, [%rd1]"),
                 Statement::Directive(".reg .f32 f"),
@@ -196,6 +203,13 @@ mod tests {
                 instruction("", "ret", ""),
             ]
         );
+    }
+
+    #[test]
+    fn nvcc_writes_calls_without_spaces() {
+        let text = ".visible .entry a()\n{\ncall(%r1,%r2),_optix_x,(%r3);\n}\n";
+        let Statement::Instruction(call) = bodies(text)[0].statements[0] else { panic!("a call") };
+        assert_eq!((call.op, call.operands), ("call", "(%r1,%r2),_optix_x,(%r3)"));
     }
 
     #[test]

@@ -169,6 +169,20 @@ fn merge<'a>(into: &mut Option<State<'a>>, from: &State<'a>) -> bool {
 }
 
 fn call<'a>(instruction: &Instruction<'a>, state: &State<'a>) -> Option<Call<'a>> {
+    let Parts { function, results, arguments } = parts(instruction)?;
+    let values = arguments.iter().map(|argument| value_of(argument, state)).collect();
+    Some(Call { function, results, arguments, values })
+}
+
+/// What is written in a call.
+pub(crate) struct Parts<'a> {
+    pub function: &'a str,
+    pub results: Vec<&'a str>,
+    pub arguments: Vec<&'a str>,
+}
+
+/// The parts of `call (%r1), f, (%r2)`; none if it is another instruction.
+pub(crate) fn parts<'a>(instruction: &Instruction<'a>) -> Option<Parts<'a>> {
     if instruction.op.split('.').next() != Some("call") {
         return None;
     }
@@ -179,8 +193,12 @@ fn call<'a>(instruction: &Instruction<'a>, state: &State<'a>) -> Option<Call<'a>
     let at = parts.iter().position(|part| !part.starts_with('('))?;
     let results = if at > 0 { list(parts[0]) } else { Vec::new() };
     let arguments = parts.get(at + 1).map(|part| list(part)).unwrap_or_default();
-    let values = arguments.iter().map(|argument| value_of(argument, state)).collect();
-    Some(Call { function: parts[at], results, arguments, values })
+    Some(Parts { function: parts[at], results, arguments })
+}
+
+/// The Rust path of a function. LLVM writes the dots of a symbol, which PTX does not allow, as `_$_`.
+pub(crate) fn demangled(symbol: &str) -> String {
+    format!("{:#}", rustc_demangle::demangle(&symbol.replace("_$_", ".")))
 }
 
 #[cfg(test)]

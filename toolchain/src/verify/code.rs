@@ -1,7 +1,7 @@
 //! The functions of a module, and which call which.
 
 use crate::ptx::body::Body;
-use crate::ptx::calls::{Call, calls};
+use crate::ptx::calls::{Call, calls, demangled};
 
 /// A function with its calls.
 pub(super) struct Function<'a> {
@@ -46,9 +46,4 @@ impl<'a> Code<'a> {
         }
         reached
     }
-}
-
-/// The Rust path of a function. LLVM writes the dots of a symbol, which PTX does not allow, as `_$_`.
-pub(super) fn demangled(symbol: &str) -> String {
-    format!("{:#}", rustc_demangle::demangle(&symbol.replace("_$_", ".")))
 }

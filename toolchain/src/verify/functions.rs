@@ -1,11 +1,11 @@
 //! What costs without being wrong: local memory, and functions that are called instead of inlined.
 
 use super::callables;
-use super::code::{Code, Function, demangled};
+use super::code::{Code, Function};
 use super::facts::Pipeline;
 use super::finding::{Finding, Rule};
 use super::trace;
-use crate::ptx::calls::Call;
+use crate::ptx::calls::{Call, demangled};
 
 /// Whether a call goes through a pointer that is not that of a callable.
 fn is_through_a_pointer(function: &Function<'_>, call: &Call<'_>) -> bool {

@@ -1,0 +1,38 @@
+//! How shader crates are compiled: the options that several commands have.
+
+use std::path::{Path, PathBuf};
+
+use clap::ArgAction::Set;
+use optix_toolchain::Shaders;
+
+/// Which crates, and how.
+#[derive(clap::Args)]
+pub(super) struct Options {
+    /// The folder of one shader crate.
+    #[arg(long = "crate", value_name = "PATH")]
+    pub path: Option<PathBuf>,
+    /// Whether `a * b + c` may become one `fma`.
+    #[arg(long, value_name = "BOOL", default_value_t = true, action = Set)]
+    fmad: bool,
+    /// Whether `f32` instructions take and give zero for subnormal numbers.
+    #[arg(long, value_name = "BOOL", default_value_t = false, action = Set, num_args = 0..=1, default_missing_value = "true")]
+    ftz: bool,
+    /// Whether `f32` division is correctly rounded.
+    #[arg(long, value_name = "BOOL", default_value_t = true, action = Set)]
+    prec_div: bool,
+    /// Whether the `f32` square root is correctly rounded.
+    #[arg(long, value_name = "BOOL", default_value_t = true, action = Set)]
+    prec_sqrt: bool,
+    /// Keep line information, which changes no instruction: nvcc's `-lineinfo`.
+    #[arg(long)]
+    debug: bool,
+}
+
+impl Options {
+    /// The crate in `path`, to be compiled so.
+    pub fn shaders(&self, path: &Path, arch: &str) -> Shaders {
+        let Self { path: _, fmad, ftz, prec_div, prec_sqrt, debug } = *self;
+        let shaders = Shaders::new(path).arch(arch).line_info(debug);
+        shaders.fmad(fmad).ftz(ftz).prec_div(prec_div).prec_sqrt(prec_sqrt)
+    }
+}
