@@ -114,7 +114,7 @@ fn a_bound_parameter_that_differs_is_refused() {
     frame.max_bounces = 3;
     pipeline.launch(&frame, [4, 4, 1]).unwrap().wait().unwrap();
     let explained = pipeline.explain().to_string();
-    for word in ["a single GAS", "1 of 5", "Ball", "max_bounces", "disabled on Lambert"] {
+    for word in ["a single GAS", "1 of 5", "Ball", "max_bounces: the CPU loads it", "disabled on Lambert"] {
         assert!(explained.contains(word), "`{word}` is not in:\n{explained}");
     }
 }

@@ -132,13 +132,18 @@ impl Linked for CpuPipeline {
     }
 
     fn details(&self) -> Vec<String> {
-        vec![format!(
+        let records = format!(
             "records: {} hit, {} miss, {} callable, stride {} bytes",
             self.sbt.hit.programs().len(),
             self.sbt.miss.programs().len(),
             self.sbt.callables.programs().len(),
             self.sbt.hit.stride()
-        )]
+        );
+        let bound = self.plan.bound.iter().map(|value| {
+            let name = value.field.name;
+            format!("bound value {name}: the CPU loads it from each launch's parameters, which have the bound value")
+        });
+        core::iter::once(records).chain(bound).collect()
     }
 }
 

@@ -7,6 +7,7 @@ use super::driver::{
     SbtIndices, SbtSection, SbtSections, ShaderBindingTable as DeviceTable, Source, TraversableGraph, TriangleInput,
     stack::CallDepths,
 };
+use super::feedback;
 use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, InstanceInput, Linked, Running, next_device_id};
 use crate::pipeline::{Graph, Plan};
 use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
@@ -234,6 +235,7 @@ impl OptixPipeline {
                 hit.stride()
             ),
         ];
+        details.extend(feedback::bound_values(module.log(), &plan.bound));
         details.extend(module.log().lines().map(|line| format!("compiler: {line}")));
         Ok(Self { pipeline, table, details })
     }

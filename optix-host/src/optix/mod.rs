@@ -2,5 +2,6 @@
 
 mod backend;
 pub mod driver;
+mod feedback;
 
 pub(crate) use backend::OptixBackend;

@@ -3,8 +3,10 @@
 //! Each message names the rule and its item in the guide's checklist, such as `G010`.
 
 use super::{Job, trap};
+use crate::cpu::kernel::{Aabb, Site};
 use core::cell::RefCell;
 use optix_device_rs::host::{PayloadDescription, PayloadWatch, TraceCall};
+use optix_device_rs::spawn::gamma;
 
 /// Checks the arguments of a trace call; gives what is known of its payload.
 pub(super) fn trace(job: &Job<'_>, trace: &TraceCall) -> Watch {
@@ -39,13 +41,31 @@ pub(super) fn trace(job: &Job<'_>, trace: &TraceCall) -> Watch {
     Watch::new(job.ray(trace.miss_index).payload, trace.caller_writes)
 }
 
-/// Checks a report.
-pub(super) fn report(t: f32, kind: u8) {
+/// Checks a report at a primitive, while hits up to `tmax` count.
+pub(super) fn report(site: &Site<'_>, tmax: f32, t: f32, kind: u8) {
     if kind > 127 {
         trap(format!("hit kind {kind} is reported: 128 to 255 are of built-in primitives (guide 13.4, G030)"));
     }
     if t.is_nan() {
         trap("a hit is reported at t = NaN (guide 13.4, G034)".into());
+    }
+    // A report outside of the interval is lawful, and no hit.
+    if (site.query.tmin..=tmax).contains(&t)
+        && let Some(Aabb { min, max }) = site.gas.custom_box(site.sbt_gas_index, site.primitive_index)
+    {
+        let ray = &site.object_ray;
+        let at: [f64; 3] = core::array::from_fn(|a| {
+            let (origin, way) = (f64::from(ray.origin[a]), f64::from(t) * f64::from(ray.direction[a]));
+            // As far as roundings of the program's own arithmetic may move it.
+            let slack = f64::from(gamma(64)) * (origin.abs() + way.abs());
+            (origin + way).clamp(f64::from(min[a]) - slack, f64::from(max[a]) + slack) - (origin + way)
+        });
+        if at != [0.0; 3] {
+            trap(format!(
+                "a hit is reported at t = {t}, outside of the primitive's box from {min:?} to {max:?} by {at:?}: rays that pass \
+                 the box by don't find it (guide 5.1, B039)"
+            ));
+        }
     }
 }
 

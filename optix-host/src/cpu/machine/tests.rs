@@ -256,6 +256,11 @@ fn reported_hits() {
     let program = "__intersection__test";
     traps(true, |s| s.report.1 = 128, program, &["hit kind 128", "G030"]);
     traps(true, |s| s.report.0 = f32::NAN, program, &["t = NaN", "G034"]);
+    traps(true, |s| s.report.0 = 0.5, program, &["t = 0.5, outside of the primitive's box", "B039"]);
+    // Outside of the interval it is no hit.
+    let mut behind = lawful(true);
+    (behind.report.0, behind.call.ray.tmin) = (0.5, 1.0);
+    assert_eq!(run(true, true, behind), None);
 }
 
 #[test]

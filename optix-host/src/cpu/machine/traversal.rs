@@ -54,6 +54,7 @@ impl<V: Fn() -> Option<[[f32; 3]; 3]>> Executor for AtHit<'_, V> {
 struct AtPrimitive<'c, 't, 'p, 'r, 's> {
     call: &'c Call<'c>,
     path: &'c InstancePath<'c>,
+    site: &'c Site<'c>,
     traversal: RefCell<&'t mut Traversal<'p>>,
     reporter: RefCell<&'t mut Reporter<'r, 's>>,
 }
@@ -70,7 +71,7 @@ impl Executor for AtPrimitive<'_, '_, '_, '_, '_> {
     }
     fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool {
         if self.call.job.checked {
-            checks::report(t, kind);
+            checks::report(self.site, self.interval_end(), t, kind);
         }
         // The any-hit program that this may call gets executors of its own, so neither cell is borrowed twice.
         self.reporter.borrow_mut().report(&mut **self.traversal.borrow_mut(), t, kind, &attributes.0[..count])
@@ -131,6 +132,7 @@ impl Programs for Traversal<'_> {
         let executor = AtPrimitive {
             call: &call,
             path: site.path,
+            site,
             traversal: RefCell::new(self),
             reporter: RefCell::new(reporter),
         };
