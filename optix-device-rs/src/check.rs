@@ -4,7 +4,7 @@
 
 use crate::attributes::{Attributes, Triangles};
 use crate::payload::{Part, Payload};
-use crate::program::{Face, Transform};
+use crate::program::{AccelHandle, Face, HitKind, PrimitiveType, Transform, TransformHandle};
 use crate::ray::{Ray, RayFlags, Traversable};
 use crate::spawn::SurfacePoint;
 use core::fmt::Debug;
@@ -214,8 +214,17 @@ not_allowed! { HasPrimitive: RayGen<P>, Miss<P>, DirectCallable<P>, Continuation
     sbt_gas_index() -> u32;
     instance_id() -> Option<u32>;
     instance_index() -> u32;
+    gas_handle() -> AccelHandle<'_>;
+    transform_list_size() -> u32;
+    transform_list_handle(u32) -> Option<TransformHandle<'_>>;
     object_to_world() -> Transform;
     world_to_object() -> Transform;
+    point_to_world(Vec3) -> Vec3;
+    vector_to_world(Vec3) -> Vec3;
+    normal_to_world(Vec3) -> Vec3;
+    point_to_object(Vec3) -> Vec3;
+    vector_to_object(Vec3) -> Vec3;
+    normal_to_object(Vec3) -> Vec3;
 } }
 
 /// The context of a program that has its ray in object space.
@@ -239,7 +248,8 @@ not_allowed! { HasObjectRay: RayGen<P>, ClosestHit<P, A>, Miss<P>, DirectCallabl
 pub trait HasHit {}
 not_allowed! { HasHit: RayGen<P>, Intersection<P, A>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>, Exception<P>; {
     attributes() -> ();
-    hit_kind() -> u8;
+    hit_kind() -> HitKind;
+    primitive_type() -> PrimitiveType;
     barycentrics() -> Vec2;
     face() -> Face;
     vertices() -> [Vec3; 3];

@@ -9,8 +9,8 @@ pub use crate::params::LaunchParams;
 pub use crate::payload::Payload;
 pub use crate::pipeline::{HasHitGroup, HasRay, Pipeline, Throws};
 pub use crate::program::{
-    AnyHit, CallsContinuation, CallsDirect, ClosestHit, ContinuationCallable, DirectCallable, Exception, Face,
-    Intersection, Miss, RayGen, Transform,
+    AnyHit, CallsContinuation, CallsDirect, ClosestHit, ContinuationCallable, DirectCallable, Exception, Face, HitKind,
+    InstanceHandle, Intersection, Miss, PrimitiveType, RayGen, Transform,
 };
 pub use crate::ray::{AnyHitMode, CullFaces, Decision, Ray, RayFlags, Traversable};
 pub use crate::record::SbtRecord;

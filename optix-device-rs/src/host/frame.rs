@@ -59,6 +59,19 @@ pub struct CallableCall {
     pub signature: TypeId,
 }
 
+/// What the handle of an instance tells a program.
+#[derive(Clone, Copy, Debug)]
+pub struct InstanceState {
+    /// The application's.
+    pub id: u32,
+    /// The handle of the structure placed.
+    pub child: u64,
+    /// To the space of its IAS: three rows.
+    pub transform: [[f32; 4]; 3],
+    /// From the space of its IAS: three rows.
+    pub inverse: [[f32; 4]; 3],
+}
+
 /// Everything a program call on the host can see.
 pub struct Frame<'a> {
     /// Who runs it.
@@ -108,6 +121,27 @@ pub trait Executor {
     fn interval_end(&self) -> f32;
     /// The vertices of the triangle hit, in object space.
     fn triangle_vertices(&self) -> [Vec3; 3];
+    /// The GAS of the primitive.
+    fn gas_traversable_handle(&self) -> u64;
+    /// Instances between the root of the trace and the primitive.
+    fn transform_list_size(&self) -> u32;
+    /// The handle of one of them, 0 nearest the root.
+    fn transform_list_handle(&self, index: u32) -> u64;
+    /// The handle of an instance of an IAS.
+    ///
+    /// # Safety
+    /// `ias` is the handle of an IAS of this launch, which has an instance `index`.
+    unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64;
+    /// What an instance's handle tells.
+    ///
+    /// # Safety
+    /// `handle` came from this launch.
+    unsafe fn instance(&self, handle: u64) -> InstanceState;
+    /// The vertices of a triangle, in object space.
+    ///
+    /// # Safety
+    /// `gas` is the handle of a GAS of this launch, which has such a triangle.
+    unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3];
     /// Three rows.
     fn object_to_world(&self) -> [[f32; 4]; 3];
     /// Three rows.

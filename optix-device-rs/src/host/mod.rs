@@ -14,6 +14,6 @@ pub use description::{
     CallableDescription, Entry, ExceptionsDescription, HitGroupDescription, HitPrograms, ParamsDescription,
     PayloadDescription, PipelineDescription, ProgramDescription, RayDescription, RecordLayout,
 };
-pub use frame::{CallableCall, ExceptionState, Executor, Frame, HitState, PayloadWatch};
+pub use frame::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState, PayloadWatch};
 pub use memory::{Buffer, Buffer2d, DeviceId, Memory, MemoryError, World};
 pub use twin::{KeepAlive, Twin, View};

@@ -60,6 +60,18 @@ fn each_word(payload: &Cell<WordBuffer>) -> &[Cell<u32>; MAX_PAYLOAD_WORDS] {
     unsafe { &*core::ptr::from_ref(payload).cast() }
 }
 
+/// `OptixPrimitiveType` of a hit kind.
+#[inline(always)]
+pub fn primitive_type_of(kind: u8) -> u32 {
+    if kind < 128 { 0x2500 } else { 0x2531 }
+}
+
+/// Whether a hit kind says that the back of a built-in primitive was hit.
+#[inline(always)]
+pub fn is_back_face(kind: u8) -> bool {
+    kind == 255
+}
+
 impl Cx {
     /// The context of a program call.
     ///
@@ -196,6 +208,78 @@ impl Cx {
         let mut words = WordBuffer::ZERO;
         words.0[..8].copy_from_slice(&self.frame().hit.attributes);
         words
+    }
+    #[inline(always)]
+    pub fn gas_traversable_handle(&self) -> u64 {
+        self.frame().executor.gas_traversable_handle()
+    }
+    #[inline(always)]
+    pub fn transform_list_size(&self) -> u32 {
+        self.frame().executor.transform_list_size()
+    }
+    /// # Safety
+    /// `index` is less than the list's size.
+    #[inline(always)]
+    pub unsafe fn transform_list_handle(&self, index: u32) -> u64 {
+        self.frame().executor.transform_list_handle(index)
+    }
+    /// `OptixTransformType`.
+    ///
+    /// # Safety
+    /// `handle` is of the transform list or of an instance.
+    #[inline(always)]
+    pub unsafe fn transform_type_from_handle(&self, _handle: u64) -> u32 {
+        // Instances are the only transforms that the executor has.
+        4
+    }
+    /// # Safety
+    /// `ias` was built with random instance access and has an instance `index`.
+    #[inline(always)]
+    pub unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
+        // SAFETY: the caller's.
+        unsafe { self.frame().executor.instance_traversable_from_ias(ias, index) }
+    }
+    /// # Safety
+    /// `handle` is of an instance.
+    #[inline(always)]
+    pub unsafe fn instance_id_from_handle(&self, handle: u64) -> u32 {
+        // SAFETY: the caller's.
+        unsafe { self.frame().executor.instance(handle) }.id
+    }
+    /// # Safety
+    /// `handle` is of an instance.
+    #[inline(always)]
+    pub unsafe fn instance_child_from_handle(&self, handle: u64) -> u64 {
+        // SAFETY: the caller's.
+        unsafe { self.frame().executor.instance(handle) }.child
+    }
+    /// # Safety
+    /// `handle` is of an instance.
+    #[inline(always)]
+    pub unsafe fn instance_transform_from_handle(&self, handle: u64) -> [[f32; 4]; 3] {
+        // SAFETY: the caller's.
+        unsafe { self.frame().executor.instance(handle) }.transform
+    }
+    /// # Safety
+    /// `handle` is of an instance.
+    #[inline(always)]
+    pub unsafe fn instance_inverse_transform_from_handle(&self, handle: u64) -> [[f32; 4]; 3] {
+        // SAFETY: the caller's.
+        unsafe { self.frame().executor.instance(handle) }.inverse
+    }
+    /// # Safety
+    /// `gas` is of triangles and was built with random vertex access; `sbt_gas_index` is a record of one of its build
+    /// inputs, which has a triangle `primitive`.
+    #[inline(always)]
+    pub unsafe fn triangle_vertices_from_handle(
+        &self,
+        gas: u64,
+        primitive: u32,
+        sbt_gas_index: u32,
+        _time: f32,
+    ) -> [Vec3; 3] {
+        // SAFETY: the caller's.
+        unsafe { self.frame().executor.triangle_vertices_from_handle(gas, primitive, sbt_gas_index) }
     }
     #[inline(always)]
     pub fn triangle_vertices(&self) -> [Vec3; 3] {

@@ -5,12 +5,12 @@
 #[cfg(target_arch = "nvptx64")]
 mod ptx;
 #[cfg(target_arch = "nvptx64")]
-pub use ptx::{Cx, ParamsBase, load_param, trap, unwritten};
+pub use ptx::{Cx, ParamsBase, is_back_face, load_param, primitive_type_of, trap, unwritten};
 
 #[cfg(not(target_arch = "nvptx64"))]
 mod host;
 #[cfg(not(target_arch = "nvptx64"))]
-pub use host::{Cx, ParamsBase, load_param, unwritten};
+pub use host::{Cx, ParamsBase, is_back_face, load_param, primitive_type_of, unwritten};
 
 /// The arguments of a trace call but for the payload, all derived from the ray and the ray type.
 #[derive(Clone, Copy, Debug)]

@@ -1,64 +1,12 @@
 //! What programs may ask about the primitive, the hit and the transforms (guide 13.4, 13.7, 13.9, 13.11).
 
-use super::{AnyHit, Attributes, ClosestHit, Intersection};
+use super::{
+    AccelHandle, AnyHit, Attributes, ClosestHit, Face, HitKind, Intersection, PrimitiveType, Transform, TransformHandle,
+};
 use crate::check::OnTriangles;
 use crate::spawn::SurfacePoint;
 use crate::words::part;
-use glam::{Mat3, Vec2, Vec3};
-
-/// An affine map: what takes points from one space to another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Transform {
-    rows: [[f32; 4]; 3],
-}
-
-impl Transform {
-    pub(crate) fn from_rows(rows: [[f32; 4]; 3]) -> Self {
-        Self { rows }
-    }
-
-    /// Three rows of four, row-major, translation in the last column: OptiX's order.
-    #[inline(always)]
-    pub fn rows(&self) -> [[f32; 4]; 3] {
-        self.rows
-    }
-
-    /// Maps a point (with translation).
-    #[inline(always)]
-    pub fn point(&self, p: Vec3) -> Vec3 {
-        self.vector(p) + Vec3::new(self.rows[0][3], self.rows[1][3], self.rows[2][3])
-    }
-
-    /// Maps a vector (without translation).
-    #[inline(always)]
-    pub fn vector(&self, v: Vec3) -> Vec3 {
-        let [x, y, z] = self.rows;
-        Vec3::new(
-            x[0] * v.x + x[1] * v.y + x[2] * v.z,
-            y[0] * v.x + y[1] * v.y + y[2] * v.z,
-            z[0] * v.x + z[1] * v.y + z[2] * v.z,
-        )
-    }
-
-    /// Maps a normal of the space that this transform leads *to* back to where it leads *from*: the transpose of the
-    /// linear part. So world normals come from object normals by the world-to-object transform's `normal`.
-    #[inline(always)]
-    pub fn normal(&self, n: Vec3) -> Vec3 {
-        let [x, y, z] = self.rows;
-        Vec3::new(
-            x[0] * n.x + y[0] * n.y + z[0] * n.z,
-            x[1] * n.x + y[1] * n.y + z[1] * n.z,
-            x[2] * n.x + y[2] * n.y + z[2] * n.z,
-        )
-    }
-
-    /// The linear part.
-    #[inline(always)]
-    pub fn linear(&self) -> Mat3 {
-        let [x, y, z] = self.rows;
-        Mat3::from_cols_array(&[x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]])
-    }
-}
+use glam::{Vec2, Vec3};
 
 macro_rules! primitive_queries {
     ($($name:ident),*) => {$(
@@ -84,6 +32,26 @@ macro_rules! primitive_queries {
             pub fn instance_index(&self) -> u32 {
                 self.cx.instance_index()
             }
+            /// The GAS that the primitive is in (`optixGetGASTraversableHandle`).
+            #[inline(always)]
+            pub fn gas_handle(&self) -> AccelHandle<'_> {
+                AccelHandle::new(self.cx.gas_traversable_handle())
+            }
+            /// How many instances are on the way from the structure given to `trace` to the primitive (guide 13.11).
+            #[inline(always)]
+            pub fn transform_list_size(&self) -> u32 {
+                self.cx.transform_list_size()
+            }
+            /// One of these instances, 0 nearest the structure given to `trace`; none where the list has ended.
+            #[inline(always)]
+            pub fn transform_list_handle(&self, index: u32) -> Option<TransformHandle<'_>> {
+                if index >= self.cx.transform_list_size() {
+                    return None;
+                }
+                // SAFETY: inside the list.
+                let handle = unsafe { self.cx.transform_list_handle(index) };
+                Some(TransformHandle::new(self.cx, handle))
+            }
             /// From object to world space.
             #[inline(always)]
             pub fn object_to_world(&self) -> Transform {
@@ -93,6 +61,36 @@ macro_rules! primitive_queries {
             #[inline(always)]
             pub fn world_to_object(&self) -> Transform {
                 Transform::from_rows(self.cx.world_to_object())
+            }
+            /// A point of object space in world space.
+            #[inline(always)]
+            pub fn point_to_world(&self, point: Vec3) -> Vec3 {
+                self.object_to_world().point(point)
+            }
+            /// A vector of object space in world space: without translation.
+            #[inline(always)]
+            pub fn vector_to_world(&self, vector: Vec3) -> Vec3 {
+                self.object_to_world().vector(vector)
+            }
+            /// A normal of object space in world space, by the inverse transpose; its length changes.
+            #[inline(always)]
+            pub fn normal_to_world(&self, normal: Vec3) -> Vec3 {
+                self.world_to_object().normal(normal)
+            }
+            /// A point of world space in object space.
+            #[inline(always)]
+            pub fn point_to_object(&self, point: Vec3) -> Vec3 {
+                self.world_to_object().point(point)
+            }
+            /// A vector of world space in object space: without translation.
+            #[inline(always)]
+            pub fn vector_to_object(&self, vector: Vec3) -> Vec3 {
+                self.world_to_object().vector(vector)
+            }
+            /// A normal of world space in object space, by the inverse transpose; its length changes.
+            #[inline(always)]
+            pub fn normal_to_object(&self, normal: Vec3) -> Vec3 {
+                self.object_to_world().normal(normal)
             }
         }
     )*};
@@ -117,15 +115,6 @@ macro_rules! object_ray {
 }
 object_ray!(Intersection, AnyHit);
 
-/// Which side of a triangle a ray came to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Face {
-    /// Vertices run counter-clockwise as seen from the ray's origin.
-    Front,
-    /// Clockwise.
-    Back,
-}
-
 macro_rules! hit_queries {
     ($($name:ident),*) => {$(
         impl<P, A: Attributes> $name<P, A> {
@@ -135,10 +124,18 @@ macro_rules! hit_queries {
                 // SAFETY: `pipeline!` made sure that the intersection programs of this hit group report an `A`.
                 unsafe { A::load(part(&self.cx.attributes(A::WORDS).0, 0, A::WORDS)) }
             }
-            /// The kind that the intersection program reported, 0 to 127; 254 and 255 for triangles (guide 13.7).
+        }
+
+        impl<P, A> $name<P, A> {
+            /// The kind that the intersection program reported, or that of a built-in primitive (guide 13.7).
             #[inline(always)]
-            pub fn hit_kind(&self) -> u8 {
-                self.cx.hit_kind() as u8
+            pub fn hit_kind(&self) -> HitKind {
+                HitKind::from_bits(self.cx.hit_kind())
+            }
+            /// The kind of primitive that was hit (`optixGetPrimitiveType`); of a stored kind: [`HitKind::primitive_type`].
+            #[inline(always)]
+            pub fn primitive_type(&self) -> PrimitiveType {
+                self.hit_kind().primitive_type()
             }
         }
 
@@ -152,13 +149,13 @@ macro_rules! hit_queries {
             {
                 self.cx.barycentrics()
             }
-            /// Which side was hit; an instance may flip it.
+            /// Which side was hit (`optixIsFrontFaceHit`, `optixIsBackFaceHit`); an instance may flip it.
             #[inline(always)]
             pub fn face(&self) -> Face
             where
                 A: OnTriangles,
             {
-                if self.cx.hit_kind() == 254 { Face::Front } else { Face::Back }
+                self.hit_kind().side()
             }
             /// The triangle's vertices in object space (guide 13.9).
             #[inline(always)]

@@ -7,9 +7,15 @@ pub use call::{CallsContinuation, CallsDirect};
 #[doc(hidden)]
 pub mod entry;
 mod exception;
+mod handle;
 mod hit;
-pub use hit::{Face, Transform};
+mod kind;
 mod trace;
+mod transform;
+
+pub use handle::{AccelHandle, InstanceHandle, TransformHandle, TransformType};
+pub use kind::{Face, HitKind, PrimitiveType};
+pub use transform::Transform;
 
 use crate::attributes::Attributes;
 use crate::callable::Signature;

@@ -4,7 +4,7 @@ use optix_device_rs::prelude::*;
 
 #[anyhit]
 pub fn program<P: Pipeline>(at: &AnyHit<P, Triangles>) -> Decision {
-    if at.hit_kind() == 254 {
+    if at.hit_kind() == HitKind::TRIANGLE_FRONT_FACE {
         at.ignore_intersection();
     }
     at.terminate_ray();

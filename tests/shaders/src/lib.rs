@@ -158,7 +158,7 @@ fn found_at<A: Attributes>(hit: &ClosestHit<Probe, A>, at: Vec2, point: SurfaceP
     NearestFromClosestHit {
         instance: hit.instance_id().unwrap_or(0),
         primitive: hit.primitive_index(),
-        kind: hit.hit_kind() as u32,
+        kind: hit.hit_kind().get() as u32,
         t: hit.ray_tmax(),
         at,
         position: point.position,

@@ -1,4 +1,4 @@
-//! How an intrinsic without arguments is called, and how one is called with as many words as there are.
+//! How intrinsics of no or one argument are called, and such as take as many words as there are.
 
 /// A pure intrinsic without arguments that gives one 32-bit integer.
 macro_rules! get_u32 {
@@ -36,6 +36,20 @@ macro_rules! get_vec3 {
     ($name:literal) => {
         Vec3::new(get_f32!(concat!($name, "_x")), get_f32!(concat!($name, "_y")), get_f32!(concat!($name, "_z")))
     };
+}
+
+/// A pure intrinsic that takes one integer and gives one. Needs `unsafe`: the argument is to be one it is defined for.
+macro_rules! get_of {
+    ($name:literal, $from:ident $argument:expr, $to:ident as $ty:ty) => {{
+        let value: $ty;
+        asm!(
+            concat!("call ({v}), ", $name, ", ({a});"),
+            v = out($to) value,
+            a = in($from) $argument,
+            options(pure, nomem, nostack, preserves_flags)
+        );
+        value
+    }};
 }
 
 /// Runs `$arm!([used] [unused])` for the number of payload or attribute words, which is a constant at every call.

@@ -1,9 +1,23 @@
-//! The primitive and the hit (guide 13.4, 13.7, 13.9).
+//! The primitive and the hit (guide 13.4, 13.7).
 
 use super::Cx;
 use crate::words::WordBuffer;
 use core::arch::asm;
-use glam::{Vec2, Vec3};
+use glam::Vec2;
+
+/// `OptixPrimitiveType` of a hit kind; legal in all programs.
+#[inline(always)]
+pub fn primitive_type_of(kind: u8) -> u32 {
+    // SAFETY: defined for every hit kind.
+    unsafe { get_of!("_optix_get_primitive_type_from_hit_kind", reg32 u32::from(kind), reg32 as u32) }
+}
+
+/// Whether a hit kind says that the back of a built-in primitive was hit; legal in all programs.
+#[inline(always)]
+pub fn is_back_face(kind: u8) -> bool {
+    // SAFETY: defined for every hit kind.
+    unsafe { get_of!("_optix_get_backface_from_hit_kind", reg32 u32::from(kind), reg32 as u32) != 0 }
+}
 
 impl Cx {
     #[inline(always)]
@@ -25,6 +39,20 @@ impl Cx {
     #[inline(always)]
     pub fn hit_kind(&self) -> u32 {
         get_u32!("_optix_get_hit_kind")
+    }
+
+    #[inline(always)]
+    pub fn gas_traversable_handle(&self) -> u64 {
+        let handle: u64;
+        // SAFETY: a pure query, legal in the programs whose context offers it.
+        unsafe {
+            asm!(
+                "call ({h}), _optix_get_gas_traversable_handle, ();",
+                h = out(reg64) handle,
+                options(pure, nomem, nostack, preserves_flags)
+            )
+        };
+        handle
     }
 
     #[inline(always)]
@@ -55,27 +83,5 @@ impl Cx {
         }
         get!(0 1 2 3 4 5 6 7);
         words
-    }
-
-    #[inline(always)]
-    pub fn triangle_vertices(&self) -> [Vec3; 3] {
-        let v: [f32; 9];
-        let (a, b, c, d, e, f, g, h, i): (f32, f32, f32, f32, f32, f32, f32, f32, f32);
-        // SAFETY: the hit is a triangle's, by the context's type.
-        unsafe {
-            asm!(
-                "{{ .reg .f32 f<9>;",
-                "call (f0, f1, f2, f3, f4, f5, f6, f7, f8), _optix_get_triangle_vertex_data_current_hit, ();",
-                "mov.b32 {a}, f0; mov.b32 {b}, f1; mov.b32 {c}, f2;",
-                "mov.b32 {d}, f3; mov.b32 {e}, f4; mov.b32 {f}, f5;",
-                "mov.b32 {g}, f6; mov.b32 {h}, f7; mov.b32 {i}, f8; }}",
-                a = out(reg32) a, b = out(reg32) b, c = out(reg32) c,
-                d = out(reg32) d, e = out(reg32) e, f = out(reg32) f,
-                g = out(reg32) g, h = out(reg32) h, i = out(reg32) i,
-                options(pure, nomem, nostack, preserves_flags)
-            )
-        };
-        v = [a, b, c, d, e, f, g, h, i];
-        [Vec3::new(v[0], v[1], v[2]), Vec3::new(v[3], v[4], v[5]), Vec3::new(v[6], v[7], v[8])]
     }
 }

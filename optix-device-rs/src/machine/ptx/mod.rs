@@ -16,7 +16,9 @@ mod ray;
 mod report;
 mod trace;
 mod transform;
+mod vertices;
 
+pub use hit::{is_back_face, primitive_type_of};
 pub use params::{ParamsBase, load_param};
 pub use payload::unwritten;
 

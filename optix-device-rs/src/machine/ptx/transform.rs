@@ -1,27 +1,118 @@
-//! The transforms between a primitive and the world (guide 13.11).
+//! The transforms between a primitive and the world, and instances by handle (guide 13.11, 13.12).
 
 use super::Cx;
 use core::arch::asm;
 
 impl Cx {
-    /// Three rows of the object-to-world matrix.
+    #[inline(always)]
+    pub fn transform_list_size(&self) -> u32 {
+        get_u32!("_optix_get_transform_list_size")
+    }
+
+    /// # Safety
+    /// `index` is less than the list's size.
+    #[inline(always)]
+    pub unsafe fn transform_list_handle(&self, index: u32) -> u64 {
+        // SAFETY: the caller's.
+        unsafe { get_of!("_optix_get_transform_list_handle", reg32 index, reg64 as u64) }
+    }
+
+    /// `OptixTransformType`.
+    ///
+    /// # Safety
+    /// `handle` is of the transform list or of an instance.
+    #[inline(always)]
+    pub unsafe fn transform_type_from_handle(&self, handle: u64) -> u32 {
+        // SAFETY: the caller's.
+        unsafe { get_of!("_optix_get_transform_type_from_handle", reg64 handle, reg32 as u32) }
+    }
+
+    /// # Safety
+    /// `ias` was built with random instance access and has an instance `index`.
+    #[inline(always)]
+    pub unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
+        let handle: u64;
+        // SAFETY: the caller's.
+        unsafe {
+            asm!(
+                "call ({h}), _optix_get_instance_traversable_from_ias, ({ias}, {index});",
+                h = out(reg64) handle,
+                ias = in(reg64) ias,
+                index = in(reg32) index,
+                options(pure, nomem, nostack, preserves_flags)
+            )
+        };
+        handle
+    }
+
+    /// # Safety
+    /// `handle` is of an instance.
+    #[inline(always)]
+    pub unsafe fn instance_id_from_handle(&self, handle: u64) -> u32 {
+        // SAFETY: the caller's.
+        unsafe { get_of!("_optix_get_instance_id_from_handle", reg64 handle, reg32 as u32) }
+    }
+
+    /// # Safety
+    /// `handle` is of an instance.
+    #[inline(always)]
+    pub unsafe fn instance_child_from_handle(&self, handle: u64) -> u64 {
+        // SAFETY: the caller's.
+        unsafe { get_of!("_optix_get_instance_child_from_handle", reg64 handle, reg64 as u64) }
+    }
+
+    /// # Safety
+    /// `handle` is of an instance.
+    #[inline(always)]
+    pub unsafe fn instance_transform_from_handle(&self, handle: u64) -> [[f32; 4]; 3] {
+        // SAFETY: the caller's; the query gives the address of the matrix.
+        unsafe { rows(get_of!("_optix_get_instance_transform_from_handle", reg64 handle, reg64 as u64)) }
+    }
+
+    /// # Safety
+    /// `handle` is of an instance.
+    #[inline(always)]
+    pub unsafe fn instance_inverse_transform_from_handle(&self, handle: u64) -> [[f32; 4]; 3] {
+        // SAFETY: the caller's; the query gives the address of the matrix.
+        unsafe { rows(get_of!("_optix_get_instance_inverse_transform_from_handle", reg64 handle, reg64 as u64)) }
+    }
+
+    /// Three rows of the object-to-world matrix: the product of the transform list. Instances are the only transforms
+    /// of a static scene.
     #[inline(always)]
     pub fn object_to_world(&self) -> [[f32; 4]; 3] {
-        transform(Direction::ObjectToWorld)
+        // SAFETY: the product asks for indices inside the list, whose handles are of instances. Index 0 is nearest the
+        // root, so its transform is applied last.
+        self.product(|i| unsafe { self.instance_transform_from_handle(self.transform_list_handle(i)) }, concatenate)
     }
 
     /// Three rows of the world-to-object matrix.
     #[inline(always)]
     pub fn world_to_object(&self) -> [[f32; 4]; 3] {
-        transform(Direction::WorldToObject)
+        // SAFETY: as above. The inverse of index 0 is applied first.
+        let matrix = |i| unsafe { self.instance_inverse_transform_from_handle(self.transform_list_handle(i)) };
+        self.product(matrix, |product, next| concatenate(next, product))
     }
-}
 
-/// Which way a point goes.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Direction {
-    ObjectToWorld,
-    WorldToObject,
+    #[inline(always)]
+    fn product(
+        &self,
+        matrix: impl Fn(u32) -> [[f32; 4]; 3],
+        and: impl Fn([[f32; 4]; 3], [[f32; 4]; 3]) -> [[f32; 4]; 3],
+    ) -> [[f32; 4]; 3] {
+        let size = self.transform_list_size();
+        if size == 0 {
+            return [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+        }
+        // Of most hits the list is one instance, whose matrix is the product.
+        let mut product = matrix(0);
+        let mut i = 1;
+        while i < size {
+            product = and(product, matrix(i));
+            i += 1;
+        }
+        product
+    }
 }
 
 /// `a` after `b`, both affine.
@@ -35,62 +126,13 @@ fn concatenate(a: [[f32; 4]; 3], b: [[f32; 4]; 3]) -> [[f32; 4]; 3] {
     })
 }
 
-/// The product of the transform list (guide 13.11). Instances are the only transforms of a static scene.
+/// A matrix that a query returned.
+///
+/// # Safety
+/// `address` is of three rows, as for [`row`].
 #[inline(always)]
-fn transform(direction: Direction) -> [[f32; 4]; 3] {
-    let size = get_u32!("_optix_get_transform_list_size");
-    if size == 0 {
-        return [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
-    }
-    // Of most hits the list is one instance, whose matrix is the product.
-    let mut product = matrix(direction, 0);
-    let mut i = 1;
-    while i < size {
-        let next = matrix(direction, i);
-        // Index 0 is nearest the root, so its transform is applied last, and its inverse first.
-        product = match direction {
-            Direction::ObjectToWorld => concatenate(product, next),
-            Direction::WorldToObject => concatenate(next, product),
-        };
-        i += 1;
-    }
-    product
-}
-
-/// The matrix of the instance at `index` of the transform list, which is longer than that.
-#[inline(always)]
-fn matrix(direction: Direction, index: u32) -> [[f32; 4]; 3] {
-    let (handle, address): (u64, u64);
-    // SAFETY: `index` is inside the list; the result is the handle of an instance.
-    unsafe {
-        asm!(
-            "call ({h}), _optix_get_transform_list_handle, ({i});",
-            h = out(reg64) handle,
-            i = in(reg32) index,
-            options(pure, nomem, nostack, preserves_flags)
-        )
-    };
-    match direction {
-        // SAFETY: the handle of an instance.
-        Direction::ObjectToWorld => unsafe {
-            asm!(
-                "call ({m}), _optix_get_instance_transform_from_handle, ({h});",
-                m = out(reg64) address,
-                h = in(reg64) handle,
-                options(pure, nomem, nostack, preserves_flags)
-            )
-        },
-        // SAFETY: the handle of an instance.
-        Direction::WorldToObject => unsafe {
-            asm!(
-                "call ({m}), _optix_get_instance_inverse_transform_from_handle, ({h});",
-                m = out(reg64) address,
-                h = in(reg64) handle,
-                options(pure, nomem, nostack, preserves_flags)
-            )
-        },
-    }
-    // SAFETY: what the queries return is 48 bytes.
+unsafe fn rows(address: u64) -> [[f32; 4]; 3] {
+    // SAFETY: the caller's.
     unsafe { [row(address), row(address + 16), row(address + 32)] }
 }
 

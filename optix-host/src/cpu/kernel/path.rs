@@ -74,6 +74,11 @@ impl<'a> InstancePath<'a> {
         self.instances().last()
     }
 
+    /// The structure that holds the primitives.
+    pub fn leaf(&self) -> &'a Accel {
+        self.innermost().map_or(self.root, |placed| &placed.instance.child)
+    }
+
     /// `optixGetInstanceId`: the innermost instance's ID, `!0` without one (guide §13.7).
     pub fn instance_id(&self) -> u32 {
         self.innermost().map_or(!0, |placed| placed.instance.instance_id)

@@ -2,6 +2,7 @@
 
 use super::checks::{self, Watch};
 use super::exceptions::throw;
+use super::handle::{self, rows};
 use super::traversal::{AtHit, Traversal};
 use super::{Job, trap};
 use crate::cpu::kernel::{self, Accel, RayQuery};
@@ -10,7 +11,9 @@ use core::cell::Cell;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec3};
 use optix_device_rs::exception::TRACE_DEPTH_EXCEEDED;
-use optix_device_rs::host::{CallableCall, Entry, ExceptionState, Executor, Frame, HitState, PayloadWatch, TraceCall};
+use optix_device_rs::host::{
+    CallableCall, Entry, ExceptionState, Executor, Frame, HitState, InstanceState, PayloadWatch, TraceCall,
+};
 use optix_device_rs::prelude::{Decision, Ray};
 use optix_device_rs::words::WordBuffer;
 
@@ -185,9 +188,8 @@ impl<'c> Call<'c> {
             sbt_offset: trace.sbt_offset,
             sbt_stride: trace.sbt_stride,
         };
-        let root = core::ptr::with_exposed_provenance::<Accel>(trace.traversable as usize);
         // SAFETY: a traversable is null or comes from a `World` that the launch keeps alive, of this device (checked).
-        let root = unsafe { root.as_ref() };
+        let root = unsafe { handle::structure(trace.traversable) };
         let Some(hit) = kernel::trace(root, &query, &mut Traversal { call: *self, ray }) else {
             if let Some(program) = &job.ray(trace.miss_index).miss {
                 let miss = trace.miss_index as usize;
@@ -233,6 +235,46 @@ impl Executor for Call<'_> {
     }
     fn triangle_vertices(&self) -> [Vec3; 3] {
         trap("there is no triangle".into())
+    }
+    fn gas_traversable_handle(&self) -> u64 {
+        trap("there is no primitive, so no GAS".into())
+    }
+    fn transform_list_size(&self) -> u32 {
+        trap("there is no primitive, so no transform list".into())
+    }
+    fn transform_list_handle(&self, _: u32) -> u64 {
+        trap("there is no primitive, so no transform list".into())
+    }
+    unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
+        // SAFETY: the caller's.
+        let placed = match unsafe { handle::structure(ias) } {
+            Some(Accel::Ias(ias)) => ias.instances().get(index as usize),
+            _ => None,
+        };
+        placed.map_or_else(|| trap(format!("there is no instance {index} (guide 13.12, G073)")), handle::of)
+    }
+    unsafe fn instance(&self, handle: u64) -> InstanceState {
+        // SAFETY: the caller's.
+        let Some(placed) = (unsafe { handle::instance(handle) }) else {
+            trap("a handle is of no instance (guide 13.11)".into())
+        };
+        InstanceState {
+            id: placed.instance.instance_id,
+            child: handle::of(&*placed.instance.child),
+            transform: rows(placed.instance.transform),
+            inverse: rows(placed.inverse_transform()),
+        }
+    }
+    unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3] {
+        // SAFETY: the caller's.
+        let vertices = match unsafe { handle::structure(gas) } {
+            Some(Accel::Gas(gas)) => gas.triangle_vertices(sbt_gas_index, primitive),
+            _ => None,
+        };
+        match vertices {
+            Some(vertices) => vertices.map(Vec3::from_array),
+            None => trap(format!("there is no triangle {primitive} of record {sbt_gas_index} (guide 13.9, G058)")),
+        }
     }
     fn object_to_world(&self) -> [[f32; 4]; 3] {
         trap("there is no hit, so no transform".into())

@@ -5,11 +5,13 @@
 //! | `call` | program calls and trace calls |
 //! | `traversal` | the programs that run during traversal, and what programs at a primitive may ask |
 //! | `exceptions` | what is thrown, and what becomes of it |
+//! | `handle` | traversable handles |
 //! | `checks` | what the checked mode traps |
 
 mod call;
 mod checks;
 mod exceptions;
+mod handle;
 #[cfg(test)]
 mod tests;
 mod traversal;

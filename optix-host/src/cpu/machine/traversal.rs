@@ -2,10 +2,11 @@
 
 use super::call::{Call, Seen};
 use super::checks;
+use super::handle::{self, rows};
 use crate::cpu::kernel::{self, Candidate, InstancePath, Programs, Reporter, Site};
 use core::cell::RefCell;
 use glam::Vec3;
-use optix_device_rs::host::{CallableCall, ExceptionState, Executor, HitState, TraceCall};
+use optix_device_rs::host::{CallableCall, ExceptionState, Executor, HitState, InstanceState, TraceCall};
 use optix_device_rs::prelude::{Decision, Ray};
 use optix_device_rs::words::WordBuffer;
 
@@ -16,20 +17,51 @@ pub(super) struct AtHit<'c, V> {
     pub vertices: V,
 }
 
-fn rows(matrix: [f32; 12]) -> [[f32; 4]; 3] {
-    bytemuck::cast(matrix)
+/// What programs at a primitive ask about the way to it, and what they ask in the words of programs without one.
+macro_rules! of_path {
+    () => {
+        fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
+            self.call.trace(call, payload);
+        }
+        fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
+            self.call.call(call, words);
+        }
+        fn throw(&self, exception: ExceptionState) -> ! {
+            self.call.throw(exception)
+        }
+        fn object_to_world(&self) -> [[f32; 4]; 3] {
+            rows(self.path.object_to_world())
+        }
+        fn world_to_object(&self) -> [[f32; 4]; 3] {
+            rows(self.path.world_to_object())
+        }
+        fn gas_traversable_handle(&self) -> u64 {
+            handle::of(self.path.leaf())
+        }
+        fn transform_list_size(&self) -> u32 {
+            self.path.indices().len() as u32
+        }
+        fn transform_list_handle(&self, index: u32) -> u64 {
+            self.path.instances().nth(index as usize).map_or(0, handle::of)
+        }
+        unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
+            // SAFETY: the caller's.
+            unsafe { self.call.instance_traversable_from_ias(ias, index) }
+        }
+        unsafe fn instance(&self, handle: u64) -> InstanceState {
+            // SAFETY: the caller's.
+            unsafe { self.call.instance(handle) }
+        }
+        unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3] {
+            // SAFETY: the caller's.
+            unsafe { self.call.triangle_vertices_from_handle(gas, primitive, sbt_gas_index) }
+        }
+    };
 }
 
 impl<V: Fn() -> Option<[[f32; 3]; 3]>> Executor for AtHit<'_, V> {
-    fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
-        self.call.trace(call, payload);
-    }
-    fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
-        self.call.call(call, words);
-    }
-    fn throw(&self, exception: ExceptionState) -> ! {
-        self.call.throw(exception)
-    }
+    of_path!();
+
     fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool {
         self.call.report(t, kind, count, attributes)
     }
@@ -41,12 +73,6 @@ impl<V: Fn() -> Option<[[f32; 3]; 3]>> Executor for AtHit<'_, V> {
             Some(vertices) => vertices.map(Vec3::from_array),
             None => self.call.triangle_vertices(),
         }
-    }
-    fn object_to_world(&self) -> [[f32; 4]; 3] {
-        rows(self.path.object_to_world())
-    }
-    fn world_to_object(&self) -> [[f32; 4]; 3] {
-        rows(self.path.world_to_object())
     }
 }
 
@@ -60,15 +86,8 @@ struct AtPrimitive<'c, 't, 'p, 'r, 's> {
 }
 
 impl Executor for AtPrimitive<'_, '_, '_, '_, '_> {
-    fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
-        self.call.trace(call, payload);
-    }
-    fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
-        self.call.call(call, words);
-    }
-    fn throw(&self, exception: ExceptionState) -> ! {
-        self.call.throw(exception)
-    }
+    of_path!();
+
     fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool {
         if self.call.job.checked {
             checks::report(self.site, self.interval_end(), t, kind);
@@ -81,12 +100,6 @@ impl Executor for AtPrimitive<'_, '_, '_, '_, '_> {
     }
     fn triangle_vertices(&self) -> [Vec3; 3] {
         self.call.triangle_vertices()
-    }
-    fn object_to_world(&self) -> [[f32; 4]; 3] {
-        rows(self.path.object_to_world())
-    }
-    fn world_to_object(&self) -> [[f32; 4]; 3] {
-        rows(self.path.world_to_object())
     }
 }
 

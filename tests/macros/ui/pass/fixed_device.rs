@@ -73,7 +73,7 @@ mod device_decision_by_call {
 
     #[anyhit]
     pub fn program<P: Pipeline>(at: &AnyHit<P, Triangles>) -> Decision {
-        if at.hit_kind() == 254 {
+        if at.hit_kind() == HitKind::TRIANGLE_FRONT_FACE {
             return Decision::Ignore;
         }
         Decision::Terminate

@@ -1,0 +1,108 @@
+//! Hit kinds, and what any program may learn from one (guide 13.7).
+
+use crate::machine;
+use crate::words::Words;
+
+/// What was hit: 0 to 127 is what an intersection program reported, the others are of built-in primitives (guide 13.7).
+///
+/// A program that has one learns from it what the hit's own programs do, wherever it runs: so a closest-hit program may
+/// leave it in the payload.
+///
+/// ```
+/// use optix_device_rs::prelude::*;
+/// assert_eq!(HitKind::TRIANGLE_BACK_FACE.primitive_type(), PrimitiveType::Triangle);
+/// assert_eq!(HitKind::TRIANGLE_BACK_FACE.face(), Some(Face::Back));
+/// assert_eq!(HitKind::new(3).unwrap().face(), None);
+/// assert_eq!(HitKind::new(200), None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(transparent)]
+pub struct HitKind(u8);
+
+/// The kinds of primitive that a hit can be on (`OptixPrimitiveType`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PrimitiveType {
+    /// A primitive with an intersection program of the user's.
+    Custom,
+    /// A built-in triangle.
+    Triangle,
+}
+
+/// Which side of a triangle a ray came to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Face {
+    /// Vertices run counter-clockwise as seen from the ray's origin.
+    Front,
+    /// Clockwise.
+    Back,
+}
+
+impl HitKind {
+    /// The front of a built-in triangle.
+    pub const TRIANGLE_FRONT_FACE: Self = Self(254);
+    /// The back of a built-in triangle.
+    pub const TRIANGLE_BACK_FACE: Self = Self(255);
+
+    /// A kind by its number; none if no hit can have it.
+    #[inline(always)]
+    pub const fn new(kind: u8) -> Option<Self> {
+        match kind {
+            0..=127 | 254 | 255 => Some(Self(kind)),
+            _ => None,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) const fn from_bits(kind: u32) -> Self {
+        Self(kind as u8)
+    }
+
+    /// The number: for a custom primitive what its intersection program reported.
+    #[inline(always)]
+    pub const fn get(self) -> u8 {
+        self.0
+    }
+
+    /// The kind of primitive (`optixGetPrimitiveType`).
+    #[inline(always)]
+    pub fn primitive_type(self) -> PrimitiveType {
+        match machine::primitive_type_of(self.0) {
+            // OPTIX_PRIMITIVE_TYPE_TRIANGLE
+            0x2531 => PrimitiveType::Triangle,
+            _ => PrimitiveType::Custom,
+        }
+    }
+
+    /// Whether it is a triangle's (`optixIsTriangleHit`).
+    #[inline(always)]
+    pub fn is_triangle(self) -> bool {
+        self.0 >= Self::TRIANGLE_FRONT_FACE.0
+    }
+
+    /// Which side was hit (`optixIsFrontFaceHit`, `optixIsBackFaceHit`); none for a custom primitive, which has no sides
+    /// that OptiX knows of.
+    #[inline(always)]
+    pub fn face(self) -> Option<Face> {
+        (self.primitive_type() != PrimitiveType::Custom).then(|| self.side())
+    }
+
+    /// Which side of a built-in primitive was hit.
+    #[inline(always)]
+    pub(crate) fn side(self) -> Face {
+        if machine::is_back_face(self.0) { Face::Back } else { Face::Front }
+    }
+}
+
+impl Words for HitKind {
+    const COUNT: usize = 1;
+    #[inline(always)]
+    fn store(self, words: &mut [u32]) {
+        self.0.store(words);
+    }
+    #[inline(always)]
+    unsafe fn load(words: &[u32]) -> Self {
+        // SAFETY: the words are of a hit kind that was stored.
+        Self(unsafe { u8::load(words) })
+    }
+}
