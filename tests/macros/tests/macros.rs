@@ -450,7 +450,7 @@ fn a_pipeline_describes_itself() {
 
 /// Runs an entry on a frame; gives its decision and the payload.
 fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer) -> (Decision, WordBuffer) {
-    use optix_device_rs::host::{CallableCall, ExceptionState, Executor, Frame, HitState};
+    use optix_device_rs::host::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState};
     use optix_device_rs::machine::TraceCall;
 
     struct Alone;
@@ -471,6 +471,24 @@ fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer)
             unreachable!()
         }
         fn triangle_vertices(&self) -> [Vec3; 3] {
+            unreachable!()
+        }
+        fn gas_traversable_handle(&self) -> u64 {
+            unreachable!()
+        }
+        fn transform_list_size(&self) -> u32 {
+            unreachable!()
+        }
+        fn transform_list_handle(&self, _: u32) -> u64 {
+            unreachable!()
+        }
+        unsafe fn instance_traversable_from_ias(&self, _: u64, _: u32) -> u64 {
+            unreachable!()
+        }
+        unsafe fn instance(&self, _: u64) -> InstanceState {
+            unreachable!()
+        }
+        unsafe fn triangle_vertices_from_handle(&self, _: u64, _: u32, _: u32) -> [Vec3; 3] {
             unreachable!()
         }
         fn object_to_world(&self) -> [[f32; 4]; 3] {
