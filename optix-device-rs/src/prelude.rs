@@ -10,7 +10,7 @@ pub use crate::payload::Payload;
 pub use crate::pipeline::{HasHitGroup, HasRay, Pipeline, Throws};
 pub use crate::program::{
     AnyHit, CallsContinuation, CallsDirect, ClosestHit, ContinuationCallable, DirectCallable, Exception, Face, HitKind,
-    InstanceHandle, Intersection, Miss, PrimitiveType, RayGen, Transform,
+    InstanceHandle, Intersection, Miss, PrimitiveType, RayGen, Transform, TransformHandle,
 };
 pub use crate::ray::{AnyHitMode, CullFaces, Decision, Ray, RayFlags, Traversable};
 pub use crate::record::SbtRecord;

@@ -2,6 +2,8 @@
 //!
 //! `CONTRACTS=overwrite cargo test -p optix-macro-tests --test index` writes the page anew.
 
+mod device_functions;
+
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
@@ -20,7 +22,6 @@ struct Case {
     name: String,
     ids: Vec<String>,
     what: String,
-    source: String,
     /// The program that compiles and has the case put right.
     twin: String,
 }
@@ -64,7 +65,7 @@ fn cases() -> Vec<Case> {
         let twin = pass.iter().find(|(_, text)| text.contains(&module));
         let twin =
             twin.unwrap_or_else(|| panic!("no program in ui/pass has `mod {name}`, the case put right")).0.clone();
-        Case { ids: ids.split(", ").map(str::to_owned).collect(), what: what.to_owned(), twin, name, source }
+        Case { ids: ids.split(", ").map(str::to_owned).collect(), what: what.to_owned(), twin, name }
     };
     sources(&root().join("ui")).into_iter().map(case).collect()
 }
@@ -101,14 +102,7 @@ fn page(rules: &[Rule], cases: &[Case]) -> String {
             case.ids.join(", ")
         );
     }
-    page.push_str(
-        "\n## Device functions\n\nWhich kinds of program have which method; every other call is among the cases above.\n\n\
-         | method | OptiX | raygen | intersection | anyhit | closesthit | miss |\n| --- | --- | --- | --- | --- | --- | --- |\n",
-    );
-    for line in table("device_functions.tsv") {
-        let marks: Vec<_> = line[2..].iter().map(|mark| if mark == "1" { "yes" } else { "" }).collect();
-        let _ = writeln!(page, "| `{}` | `{}` | {} |", line[0], line[1], marks.join(" | "));
-    }
+    page.push_str(&device_functions::section(&table("device_functions.tsv")));
     page.push_str(
         "\n## Rules without a test of this kind\n\nItems that the checklist says a compiler can check, and why no case \
          covers them.\n\n| rule | what holds | why not here |\n| --- | --- | --- |\n",
@@ -160,24 +154,36 @@ fn messages() {
     }
 }
 
-/// Every device function is tried from every kind of program: it compiles where the table has a 1, else it does not.
+/// The programs that try every device function from every kind of program are those of the table.
 #[test]
 fn device_functions() {
-    let kinds = ["raygen", "intersection", "anyhit", "closesthit", "miss"];
-    let allowed = &sources(&root().join("ui/pass"))["device_functions"];
-    let cases = cases();
-    for line in table("device_functions.tsv") {
-        let (method, marks) = (&line[0], &line[2..]);
-        let called = |text: &str| text.contains(&format!("at.{method}(")) || text.contains(&format!("at.{method}::<"));
-        for (kind, mark) in kinds.into_iter().zip(marks) {
-            let program = |text: &str| text.contains(&format!("#[{kind}]\n"));
-            if mark == "1" {
-                let tried = allowed.split("\n}\n").any(|text| program(text) && called(text));
-                assert!(tried, "ui/pass/device_functions.rs does not call `{method}` from {kind}");
-            } else {
-                let tried = cases.iter().any(|case| program(&case.source) && called(&case.source));
-                assert!(tried, "no case calls `{method}` from {kind}, where it is not allowed");
-            }
+    let functions = table("device_functions.tsv");
+    let write = std::env::var("CONTRACTS").is_ok_and(|value| value == "overwrite");
+    for (name, program) in device_functions::programs(&functions) {
+        let path = root().join("ui").join(&name);
+        if write {
+            fs::write(path, program.text).unwrap();
+            continue;
+        }
+        let stale = fs::read_to_string(&path).unwrap_or_default() != program.text;
+        assert!(!stale, "{name} is stale: run this test with `CONTRACTS=overwrite`");
+        // trybuild compares the messages; that none is missing is for us to see.
+        let messages = fs::read_to_string(path.with_extension("stderr")).unwrap_or_default();
+        let errors = messages.lines().filter(|line| line.starts_with("error")).count();
+        assert_eq!(errors, program.refused.len(), "{name} has errors that are not about a device function");
+        for line in program.refused {
+            let at = format!("--> ui/{name}:{line}:");
+            assert!(messages.contains(&at), "line {line} of {name} compiles, but the function is not allowed there");
         }
     }
+}
+
+/// The table says what the table of facts beside the repository says, where there is one.
+#[test]
+fn device_functions_are_those_of_the_guide() {
+    let facts = root().join("../../../shared/facts/device_function_legality.tsv");
+    let Ok(facts) = fs::read_to_string(facts) else { return };
+    let ours: Vec<_> = table("device_functions.tsv").into_iter().map(|row| (row[0].clone(), row[1].clone())).collect();
+    let theirs: Vec<_> = facts.lines().skip(1).map(|line| line.split('\t').collect::<Vec<_>>()).collect();
+    assert_eq!(ours, theirs.iter().map(|row| (row[0].to_owned(), row[1..9].concat())).collect::<Vec<_>>());
 }

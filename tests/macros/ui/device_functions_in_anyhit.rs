@@ -1,0 +1,37 @@
+// G005, G029, H007, I006: an anyhit program calls no function that is another's
+// Made from `device_functions.tsv`.
+
+use optix_device_rs::callable::Continuation;
+use optix_device_rs::prelude::*;
+
+#[derive(Payload)]
+pub struct Shadow {
+    #[payload(write(caller, miss), read(caller))]
+    pub visible: bool,
+}
+
+#[derive(Clone, Copy, UserException)]
+pub enum Fault {
+    Lost,
+}
+
+pub fn direct() -> Callable<fn(u32) -> u32> {
+    unreachable!()
+}
+
+pub fn continuation() -> Callable<fn(u32) -> u32, Continuation> {
+    unreachable!()
+}
+
+#[anyhit]
+pub fn program<P: HasRay<Shadow> + Throws<Fault>>(at: &AnyHit<P, Triangles>) -> Decision {
+    let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+    let _ = continuation().call(at, 1);
+    let _ = at.report(1.0, 0, Triangles { u: 0.0, v: 0.0 });
+    let _ = at.exception_code();
+    let _ = at.line_info();
+    let _ = at.raised();
+    Decision::Accept
+}
+
+fn main() {}
