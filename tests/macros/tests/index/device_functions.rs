@@ -56,7 +56,7 @@ pub struct Program {
 }
 
 /// The calls that a kind of program may make, or may not; one that stands for several functions once.
-fn calls<'t>(functions: &'t [Vec<String>], kind: usize, allowed: bool) -> Vec<&'t str> {
+fn calls(functions: &[Vec<String>], kind: usize, allowed: bool) -> Vec<&str> {
     let mut calls = Vec::new();
     for function in functions {
         let (mark, call) = (function[1].as_bytes()[kind] == b'1', function[2].as_str());
