@@ -239,13 +239,14 @@ fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
             #[inline(always)]
             fn #function<const OFFSET: ::core::primitive::usize, const INDEX: ::core::primitive::usize>() -> ::core::primitive::#ty {
                 let __value: ::core::primitive::#register;
+                // Not `nomem`, so that no load is moved over a trace call: loading again costs less than keeping the value.
                 // SAFETY: reads from the symbol, which does not change while programs run.
                 unsafe {
                     ::core::arch::asm!(
                         #load,
                         v = out(#class) __value,
                         at = const OFFSET + #unit * INDEX,
-                        options(pure, nomem, nostack, preserves_flags),
+                        options(pure, readonly, nostack, preserves_flags),
                     )
                 };
                 __value as ::core::primitive::#ty

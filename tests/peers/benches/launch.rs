@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     compare(&loads::path_tracer(&device, size, 4)?, chosen("path_tracer"))?;
     compare(&loads::occlusion(&device, size, 64)?, chosen("occlusion"))?;
     compare(&loads::foliage(&device, size, 100)?, chosen("foliage"))?;
-    compare(&loads::field(&device, size)?, chosen("field"))?;
+    compare(&loads::field(&device, 2 * size)?, chosen("field"))?;
     compare(&loads::wide(&device, size, 8)?, chosen("wide"))?;
     Ok(())
 }

@@ -40,7 +40,6 @@ pub fn camera(rg: &RayGen<PathTracer>) {
     let frame = rg.params();
     let px = rg.launch_index().xy();
     let size = rg.launch_dimensions().xy();
-    let pinhole = frame.camera();
     let (mut sum, mut squares) = (Vec3::ZERO, Vec3::ZERO);
     let mut rays = 0;
     let mut sample = 0;
@@ -49,7 +48,7 @@ pub fn camera(rg: &RayGen<PathTracer>) {
         let pixel = (px.y as u64 * size.x as u64 + px.x as u64) << 32 | number as u64;
         let mut rng = Pcg32::hashed(pixel, frame.seed());
         let at = (px.as_vec2() + rng.next_vec2()) / size.as_vec2();
-        let (light, traced) = path(rg, pinhole.ray(at), rng);
+        let (light, traced) = path(rg, frame.camera().ray(at), rng);
         sum += light;
         squares += light * light;
         rays += traced;
@@ -62,13 +61,12 @@ pub fn camera(rg: &RayGen<PathTracer>) {
 /// Follows a path; returns its radiance and the rays traced.
 fn path(rg: &RayGen<PathTracer>, mut ray: Ray, mut rng: Pcg32) -> (Vec3, u32) {
     let frame = rg.params();
-    let world = frame.world();
     let (mut light, mut weight) = (Vec3::ZERO, Vec3::ONE);
     let mut sees_light = true;
     let mut rays = 0;
     let mut bounce = 0;
     loop {
-        let hit = rg.trace::<Radiance>(world, ray, RadianceFromCaller { rng, sees_light });
+        let hit = rg.trace::<Radiance>(frame.world(), ray, RadianceFromCaller { rng, sees_light });
         light += weight * hit.light;
         rays += 1 + hit.shadow_rays;
         weight *= hit.weight;

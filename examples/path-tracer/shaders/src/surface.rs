@@ -110,7 +110,8 @@ fn direct(
         return (Vec3::ZERO, 1);
     }
     // area * cos * cos / (pi * distance^2), with both cosines still times the distance and one times the area.
-    (area_light.emission * (cos_light * cos_surface / (core::f32::consts::PI * distance2 * distance2)), 1)
+    // Asked for again, since what is kept over a trace call costs memory traffic.
+    (frame.light().emission * (cos_light * cos_surface / (core::f32::consts::PI * distance2 * distance2)), 1)
 }
 
 /// A direction around +z, by the cosine: a point of the unit disk, raised (Malley's method).

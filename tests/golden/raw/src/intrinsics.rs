@@ -11,7 +11,7 @@ macro_rules! param {
             ::core::arch::asm!(
                 concat!($load, " {v}, [raw_params+", $at, "];"),
                 v = out($class) value,
-                options(pure, nomem, nostack, preserves_flags)
+                options(pure, readonly, nostack, preserves_flags)
             )
         };
         value
