@@ -109,16 +109,19 @@ fn out_of_range(what: &str, index: usize, len: usize) -> ! {
     panic!("{what} index {index} is out of range: the buffer has {len} elements")
 }
 
-macro_rules! check {
-    ($what:literal, $index:expr, $len:expr) => {
-        if $index >= $len {
-            // The device has no use for the message, and formatting code would be in the PTX.
-            #[cfg(target_arch = "nvptx64")]
-            crate::machine::trap();
-            #[cfg(not(target_arch = "nvptx64"))]
-            out_of_range($what, $index as usize, $len as usize);
-        }
-    };
+/// Ends the program unless `index < len`.
+#[inline(always)]
+fn check(what: &str, index: u64, len: u64) {
+    #[cfg(target_arch = "nvptx64")]
+    {
+        // The device has no use for the message, and formatting code would be in the PTX.
+        let _ = what;
+        crate::machine::check(index, len);
+    }
+    #[cfg(not(target_arch = "nvptx64"))]
+    if index >= len {
+        out_of_range(what, index as usize, len as usize);
+    }
 }
 
 macro_rules! linear_view {
@@ -184,7 +187,7 @@ macro_rules! linear_view {
             /// The element at `index`. An index out of range ends the program.
             #[inline(always)]
             pub fn get(self, index: u32) -> T {
-                check!($what, index as u64, self.len);
+                check($what, u64::from(index), self.len);
                 // SAFETY: in range, and `from_raw` promised `len` valid elements.
                 unsafe { read((self.address as *const T).add(index as usize)) }
             }
@@ -212,7 +215,7 @@ impl<T: Element> SliceMut<T> {
     /// Sets the element at `index`. An index out of range ends the program.
     #[inline(always)]
     pub fn set(self, index: u32, value: T) {
-        check!("SliceMut", index as u64, self.len);
+        check("SliceMut", u64::from(index), self.len);
         // SAFETY: in range, and `from_raw` promised `len` valid elements.
         unsafe { write((self.address as *mut T).add(index as usize), value) }
     }
@@ -270,8 +273,8 @@ impl<T: Element> SliceMut2d<T> {
 
     #[inline(always)]
     fn at(self, at: UVec2) -> *mut T {
-        check!("column", at.x, self.width);
-        check!("row", at.y, self.height);
+        check("column", u64::from(at.x), u64::from(self.width));
+        check("row", u64::from(at.y), u64::from(self.height));
         let index = at.y as usize * self.width as usize + at.x as usize;
         // Stays inside the array: both coordinates are in range.
         (self.address as *mut T).wrapping_add(index)

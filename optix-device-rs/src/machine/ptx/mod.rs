@@ -31,6 +31,22 @@ pub fn trap() -> ! {
     unsafe { asm!("trap; exit;", options(noreturn, nomem)) }
 }
 
+/// Ends the program unless `index < len`.
+///
+/// A predicated instruction: a branch would hold back the loads behind it until the ones that the index came from are done.
+#[inline(always)]
+pub fn check(index: u64, len: u64) {
+    // SAFETY: `trap` ends the launch.
+    unsafe {
+        asm!(
+            "{{ .reg .pred p; setp.ge.u64 p, {index}, {len}; @p trap; }}",
+            index = in(reg64) index,
+            len = in(reg64) len,
+            options(nomem, nostack, preserves_flags)
+        )
+    }
+}
+
 /// The running program: no state, the intrinsics know.
 #[derive(Clone, Copy)]
 pub struct Cx(());
