@@ -56,7 +56,9 @@ impl Gyroid {
         let (sz, cz) = sin_cos_turns(turns.z);
         let gyroid = (sx * cy + sy * cz + sz * cx).abs() * (1.0 / (self.frequency * 10.9)) - self.thickness;
         let q = p.abs() - Vec3::splat(0.8);
-        let outside = q.max(Vec3::ZERO).length() + q.max_element().min(0.0) - 0.1;
+        // The `max` of numbers is an instruction; that of glam's vectors compares and selects.
+        let outside =
+            Vec3::new(q.x.max(0.0), q.y.max(0.0), q.z.max(0.0)).length() + q.x.max(q.y.max(q.z)).min(0.0) - 0.1;
         gyroid.max(outside)
     }
 
