@@ -146,6 +146,18 @@ macro_rules! may_not_trace {
             {
                 unreachable!()
             }
+            #[doc(hidden)]
+            pub fn trace_without_closesthit<R: Payload>(
+                &self,
+                _: Traversable,
+                _: Ray,
+                _: R::FromCaller,
+            ) -> R::AtCaller
+            where
+                Self: $bound,
+            {
+                unreachable!()
+            }
         }
     )*};
 }
