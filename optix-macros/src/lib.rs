@@ -62,8 +62,24 @@ use proc_macro::TokenStream;
 /// | `closesthit`, `miss`, `anyhit`, `intersection` | `caller` |
 /// | `caller` | `caller`, or both `closesthit` and `miss` |
 ///
-/// Every write has a read after it: what `closesthit` or `miss` writes the caller reads. All fields together have 32
-/// words at most (guide 14).
+/// Every write has a read after it: what `closesthit` or `miss` writes the caller reads. A ray without its closest-hit program,
+/// of `trace_without_closesthit`, is only for payloads whose caller writes all that it reads.
+///
+/// # Transport
+/// The fields travel in registers, 32 words at most (guide 14), or in the caller's local memory, whose address is in two
+/// registers; then there may be any number of them. Programs are the same either way.
+///
+/// ```
+/// use optix_device_rs::prelude::*;
+///
+/// #[derive(Payload)]
+/// #[payload(transport = pointer)] // `registers`, if nothing is said
+/// pub struct Layers {
+///     #[payload(write(caller, anyhit), read(anyhit, caller))]
+///     pub t: [f32; 40],
+/// }
+/// assert_eq!((Layers::WORDS, Layers::SEMANTICS.len()), (40, 2));
+/// ```
 #[proc_macro_derive(Payload, attributes(payload, optix))]
 pub fn derive_payload(input: TokenStream) -> TokenStream {
     support::derive(input.into(), payload::derive).into()
@@ -157,7 +173,7 @@ pub fn derive_element(input: TokenStream) -> TokenStream {
     support::derive(input.into(), element::derive).into()
 }
 
-/// Lets a struct travel in payload and attribute registers, field after field.
+/// Lets a struct travel in payloads and attributes, field after field.
 ///
 /// ```
 /// use optix_device_rs::prelude::*;

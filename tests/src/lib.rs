@@ -8,3 +8,8 @@ pub mod probe;
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;
+
+/// The example of a library of shaders, likewise.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/libraries.md")]
+struct Libraries;
