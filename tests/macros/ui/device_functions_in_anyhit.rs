@@ -26,6 +26,7 @@ pub fn continuation() -> Callable<fn(u32) -> u32, Continuation> {
 #[anyhit]
 pub fn program<P: HasRay<Shadow> + Throws<Fault>>(at: &AnyHit<P, Triangles>) -> Decision {
     let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+    let _ = at.trace_without_closesthit::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
     let _ = continuation().call(at, 1);
     let _ = at.report(1.0, 0, Triangles { u: 0.0, v: 0.0 });
     let _ = at.exception_code();

@@ -26,6 +26,7 @@ pub fn continuation() -> Callable<fn(u32) -> u32, Continuation> {
 #[direct_callable]
 pub fn program<P: HasRay<Shadow> + Throws<Fault>>(at: &DirectCallable<P>) {
     let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+    let _ = at.trace_without_closesthit::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
     let _ = continuation().call(at, 1);
     let _ = at.world_ray_origin();
     let _ = at.world_ray_direction();

@@ -28,6 +28,7 @@ pub fn program<P: HasRay<Shadow> + Pipeline<Exception = Fault>>(at: &Exception<P
     let _ = || at.throw(Fault::Lost);
     let _ = direct().call(at, 1);
     let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+    let _ = at.trace_without_closesthit::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
     let _ = continuation().call(at, 1);
     let _ = at.world_ray_origin();
     let _ = at.world_ray_direction();

@@ -183,7 +183,9 @@ fn device_functions() {
 fn device_functions_are_those_of_the_guide() {
     let facts = root().join("../../../shared/facts/device_function_legality.tsv");
     let Ok(facts) = fs::read_to_string(facts) else { return };
-    let ours: Vec<_> = table("device_functions.tsv").into_iter().map(|row| (row[0].clone(), row[1].clone())).collect();
+    let mut ours: Vec<_> =
+        table("device_functions.tsv").into_iter().map(|row| (row[0].clone(), row[1].clone())).collect();
+    ours.dedup(); // one may have two calls
     let theirs: Vec<_> = facts.lines().skip(1).map(|line| line.split('\t').collect::<Vec<_>>()).collect();
     assert_eq!(ours, theirs.iter().map(|row| (row[0].to_owned(), row[1..9].concat())).collect::<Vec<_>>());
 }

@@ -40,6 +40,7 @@ mod device_functions_in_raygen {
         let _ = || at.throw(Fault::Lost);
         let _ = direct().call(at, 1);
         let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+        let _ = at.trace_without_closesthit::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
         let _ = continuation().call(at, 1);
     }
 }
@@ -156,6 +157,7 @@ mod device_functions_in_closesthit {
         let _ = || at.throw(Fault::Lost);
         let _ = direct().call(at, 1);
         let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+        let _ = at.trace_without_closesthit::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
         let _ = continuation().call(at, 1);
         let _ = at.world_ray_origin();
         let _ = at.world_ray_direction();
@@ -206,6 +208,7 @@ mod device_functions_in_miss {
         let _ = || at.throw(Fault::Lost);
         let _ = direct().call(at, 1);
         let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+        let _ = at.trace_without_closesthit::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
         let _ = continuation().call(at, 1);
         let _ = at.world_ray_origin();
         let _ = at.world_ray_direction();
@@ -273,6 +276,7 @@ mod device_functions_in_continuation_callable {
         let _ = || at.throw(Fault::Lost);
         let _ = direct().call(at, 1);
         let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
+        let _ = at.trace_without_closesthit::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
         let _ = continuation().call(at, 1);
     }
 }
