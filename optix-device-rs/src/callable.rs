@@ -112,7 +112,7 @@ macro_rules! references {
         impl<F, K> Copy for $name<F, K> {}
 
         // SAFETY: `#[repr(C)]` integers, the same on both machines.
-        unsafe impl<F: Signature, K: CallableKind> DeviceData for $name<F, K> {
+        unsafe impl<F: 'static, K: 'static> DeviceData for $name<F, K> {
             #[inline]
             fn write_to(&self, bytes: &mut [u8]) {
                 self.to_raw().write_to(bytes);

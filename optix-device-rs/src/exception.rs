@@ -36,6 +36,8 @@
 //! }
 //! ```
 
+use crate::pipeline::Throws;
+
 /// The most words of details that an exception carries (guide 13.14).
 pub const MAX_DETAILS: usize = 8;
 /// User codes are below this (guide 13.14).
@@ -64,6 +66,11 @@ pub unsafe trait UserException: Copy + 'static {
     /// Where a variant has the code, its details were stored by [`UserException::encode`].
     unsafe fn decode(code: u32, details: &[u32]) -> Option<Self>;
 }
+
+/// What programs of pipeline `P` throw: [`Throws`], read from the exception's side, which names it in messages.
+#[doc(hidden)]
+pub trait ThrownBy<P>: UserException {}
+impl<P: Throws<E>, E: UserException> ThrownBy<P> for E {}
 
 /// For pipelines whose programs throw nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

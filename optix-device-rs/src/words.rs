@@ -23,7 +23,7 @@ impl WordBuffer {
     pub const ZERO: Self = Self([0; MAX_PAYLOAD_WORDS]);
 }
 
-/// A value that travels in a payload or in attributes as `COUNT` words of 32 bits, bit for bit.
+/// A value that travels in a payload, in attributes or in a call as `COUNT` words of 32 bits, bit for bit.
 ///
 /// Implemented for `f32`, `f64`, integers up to 64 bits, `bool` and `char`; glam's vectors, quaternions, matrices and affine
 /// maps of `f32`, `f64` and 16- and 32-bit integers; raw pointers and the views of device memory
@@ -39,7 +39,7 @@ impl WordBuffer {
 /// assert_eq!(<[f32; 2]>::COUNT, 2);
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` can't travel in a payload or in attributes",
+    message = "`{Self}` can't travel in a payload, in attributes or in a call",
     label = "has no encoding in 32-bit words",
     note = "use numbers, `bool`, a glam type, a view such as `Slice`, an `Option`, pair or array of these, or `#[derive(Words)]` on your struct of these"
 )]

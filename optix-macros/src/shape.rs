@@ -60,7 +60,7 @@ fn is_view(ty: &Type) -> bool {
 }
 
 /// Whether the type is plain data by its name.
-fn is_plain(ty: &Type) -> bool {
+pub fn is_plain(ty: &Type) -> bool {
     const PLAIN: [&str; 29] = [
         "u8", "i8", "u16", "i16", "u32", "i32", "u64", "i64", "f32", "f64", "bool", "usize", "isize", "Vec2", "Vec3",
         "Vec3A", "Vec4", "UVec2", "UVec3", "UVec4", "IVec2", "IVec3", "IVec4", "Quat", "Mat3", "Mat4", "Affine3A",
@@ -81,6 +81,11 @@ fn is_no_field(field: &syn::Field, of: &Ident, what: &str, errors: &mut Errors) 
         errors.at(&field.ty, message);
     } else if matches!(ungroup(&field.ty), Type::TraitObject(_) | Type::ImplTrait(_)) {
         errors.at(&field.ty, format!("{what} has fields of one size: this is no type of a value, but traits"));
+    } else if let Type::FnPtr(function) = ungroup(&field.ty) {
+        errors.at(
+            function,
+            format!("there are no function pointers on the device (guide 15.3): {what} holds a reference to a callable, `Callable<fn(..) -> ..>`"),
+        );
     } else if let Some(unnamed) = field.ident.as_ref().filter(|ident| *ident == "_") {
         errors.at(unnamed, format!("a field of {what} has a name, by which programs read it"));
     } else {

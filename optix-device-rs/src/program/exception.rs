@@ -1,9 +1,9 @@
 //! Throwing, and what an exception program is told (guide 13.14).
 
 use super::{AnyHit, ClosestHit, ContinuationCallable, DirectCallable, Exception, Intersection, Miss, RayGen};
-use crate::exception::{MAX_DETAILS, Raised, UserException};
+use crate::exception::{MAX_DETAILS, Raised, ThrownBy, UserException};
 use crate::machine::Cx;
-use crate::pipeline::{Pipeline, Throws};
+use crate::pipeline::Pipeline;
 use crate::words::{WordBuffer, part, part_mut};
 use core::ffi::CStr;
 
@@ -23,10 +23,7 @@ macro_rules! may_throw {
             /// The pipeline says what its programs may throw: `throws: Fault`.
             #[inline(always)]
             #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
-            pub fn throw<E: UserException>(&self, exception: E) -> !
-            where
-                P: Throws<E>,
-            {
+            pub fn throw<E: ThrownBy<P>>(&self, exception: E) -> ! {
                 throw(&self.cx, exception)
             }
         }
@@ -41,7 +38,7 @@ impl<P: Pipeline> Exception<P> {
     #[inline(always)]
     pub fn raised(&self) -> Raised<P::Exception> {
         let details = self.cx.exception_details(<P::Exception as UserException>::DETAILS);
-        // SAFETY: the pipeline's programs throw nothing but its exception type (`Throws`).
+        // SAFETY: the pipeline's programs throw nothing but its exception type ([`Throws`](crate::pipeline::Throws)).
         unsafe { Raised::decode(self.cx.exception_code(), part(&details.0, 0, MAX_DETAILS)) }
     }
 }

@@ -307,7 +307,9 @@ fn exception_type(pipeline: &Pipeline) -> TokenStream {
 fn throws(pipeline: &Pipeline) -> Option<TokenStream> {
     let (ident, krate) = (&pipeline.ident, &pipeline.krate);
     pipeline.throws.as_ref().map(|exception| {
-        quote! {
+        let span = place_of(exception);
+        let (krate, ident) = (moved(krate, span), moved(ident, span));
+        quote_spanned! {span=>
             // SAFETY: the description is made from the same declaration.
             #[automatically_derived]
             unsafe impl #krate::pipeline::Throws<#exception> for #ident {}

@@ -60,8 +60,8 @@ fn named(ty: &Type, errors: &mut Errors) -> bool {
     if matches!(ty, Type::FnPtr(_)) || mentions(ty.to_token_stream(), "dyn") {
         errors.at(
             ty,
-            "there are no function pointers on the device (guide 15.3): keep a `Callable<fn(..) -> ..>` in the record or in \
-             the launch parameters, and call that",
+            "there are no function pointers on the device (guide 15.3): take a `Callable<fn(..) -> ..>`, which may come as an \
+             argument, from the record or from the launch parameters",
         );
         false
     } else if mentions(ty.to_token_stream(), "impl") {

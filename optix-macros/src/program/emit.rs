@@ -2,6 +2,7 @@
 
 use super::kind::{Kind, Roles};
 use super::model::Program;
+use crate::shape::is_plain;
 use crate::support::{allow, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
@@ -154,6 +155,16 @@ fn emit_callable(program: &Program) -> TokenStream {
     let krate_there = moved(krate, program.context_span);
     let implemented = quote_spanned!(program.context_span=> #krate_there::program::#trait_there<#pipeline>);
     let record_type = quote_spanned!(place_of(&record)=> type Record = #record;);
+    // A type that can't be passed is most likely the first that is not a number or a vector.
+    let of_interest = arguments.iter().chain(result).find(|ty| !is_plain(ty));
+    let span = of_interest.map_or(program.context_span, place_of);
+    let signature = moved(&quote!(fn(#(#arguments),*) -> #result), span);
+    let arguments = moved(&quote!((#(#arguments,)*)), span);
+    let (names, body) = (quote!((#(#names,)*)), quote!({ #call }));
+    let run = quote_spanned! {span=>
+        #[inline(always)]
+        fn run(__cx: &#krate::program::#context<#pipeline>, __record: &#record, #names: #arguments) -> #result #body
+    };
     quote! {
         #marker
         #allow
@@ -161,15 +172,8 @@ fn emit_callable(program: &Program) -> TokenStream {
             #[automatically_derived]
             impl #impl_generics #implemented for #ident #where_clause {
                 #record_type
-                type Signature = fn(#(#arguments),*) -> #result;
-                #[inline(always)]
-                fn run(
-                    __cx: &#krate::program::#context<#pipeline>,
-                    __record: &#record,
-                    (#(#names,)*): (#(#arguments,)*),
-                ) -> #result {
-                    #call
-                }
+                type Signature = #signature;
+                #run
             }
         };
     }

@@ -1,0 +1,16 @@
+// I002, I003: a call passes all that the signature says
+
+use optix_device_rs::prelude::*;
+
+#[derive(Clone, Copy, SbtRecord)]
+#[repr(C)]
+pub struct Paint {
+    pub texture: Callable<fn(Vec2, u32) -> Vec3>,
+}
+
+#[closesthit]
+pub fn program<P: Pipeline>(hit: &ClosestHit<P, Triangles>, record: &Paint) {
+    let _ = record.texture.call(hit, Vec2::X);
+}
+
+fn main() {}

@@ -1,0 +1,22 @@
+// I013: the depth of callables is a number from 1 to 31
+
+mod common;
+use common::*;
+
+#[direct_callable]
+fn wood<P: Pipeline>(_: &DirectCallable<P>, uv: Vec2) -> Vec3 {
+    uv.extend(0.0)
+}
+
+pipeline! {
+    pub struct PathTracer {
+        params: Frame,
+        raygen: [camera],
+        rays: { Radiance { miss: sky }, Shadow { miss: lit } },
+        hitgroups: { Lambert on Triangles => { Radiance { closesthit: lambert }, Shadow {} } },
+        direct_callables: [wood],
+        callable_depth: 0,
+    }
+}
+
+fn main() {}
