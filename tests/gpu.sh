@@ -21,6 +21,15 @@ target=${CARGO_TARGET_DIR:-target}/release
 for program in path-tracer cargo-optix; do
     strip -o "bundle/$program" "$target/$program"
 done
+# Launch times against CUDA C++, where nvcc and the headers of OptiX are there to compile it: see tests/peers/build.sh.
+if [ -n "${OPTIX_INCLUDE:-}" ]; then
+    tests/peers/build.sh bundle/peers >/dev/null
+    launch=$(cargo bench --package optix-peers --bench launch --no-run --message-format=json |
+        grep -o '"executable":"[^"]*"' | cut -d'"' -f4)
+    strip -o bundle/launch "$launch"
+else
+    echo "launch times: not bundled, set OPTIX_INCLUDE"
+fi
 data=${OPTIX_TEST_DATA:-../shared/data}
 if [ -d "$data" ]; then cp "$data"/*.obj bundle/data/; fi
 cat >bundle/run.sh <<'RUN'
@@ -38,6 +47,10 @@ for test in "$here"/tests/*; do
     "$test" --nocapture --test-threads=1 >"$out/$(basename "$test").log" 2>&1 || failed=1
     grep -v '^test .* ok$' "$out/$(basename "$test").log" | tail -n 40
 done
+if [ -d "$here/peers" ]; then
+    echo "== launch times"
+    "$here/launch" "$here/peers" 2>&1 | tee "$out/launch.log"
+fi
 exit $failed
 RUN
 chmod +x bundle/run.sh

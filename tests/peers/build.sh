@@ -16,3 +16,17 @@ for source in "$here"/cuda/*.cu; do
     "${compile[@]}" -o "$out/nvcc/$name.ptx"
     "${compile[@]}" -fmad=false -o "$out/nvcc-exact/$name.ptx"
 done
+
+# The Rust programs by each generator of ours, with nvcc's defaults, then without contraction.
+target=${CARGO_TARGET_DIR:-$here/../../target}
+rust() {
+    local folder=$1
+    shift
+    mkdir -p "$out/$folder"
+    for crate in "$here/shaders" "$here/../../examples/path-tracer/shaders"; do
+        (cd "$here" && cargo optix build --crate "$crate" "$@")
+    done
+    cp "$target"/optix/ptx/{peer_shaders,path_tracer_shaders}.ptx "$out/$folder/"
+}
+rust rustc
+rust rustc-exact --fmad=false
