@@ -1,32 +1,80 @@
 //! Maths that shaders need and `core` does not have; one meaning on both machines.
 
+pub mod fast;
+
 use glam::Vec3;
 
 /// Functions of `f32` that the standard library has and `core` has not, under the same names.
+///
+/// On the host they are the standard library's, on the device the toolchain's, in `f32` arithmetic. Both are within the ulps
+/// (units of the last place) of the true value that docs/maths.md states; [`fast`] has less precise ones.
+///
+/// ```
+/// use optix_device_rs::prelude::*;
+/// assert!((Math::exp(2.0f32.ln()) - 2.0).abs() < 1e-6);
+/// ```
 pub trait Math {
     /// Square root, correctly rounded.
     fn sqrt(self) -> Self;
+    /// Cube root.
+    fn cbrt(self) -> Self;
+    /// The length of the vector `(self, other)`, without overflow on the way.
+    fn hypot(self, other: Self) -> Self;
     /// Sine of an angle in radians.
     fn sin(self) -> Self;
     /// Cosine of an angle in radians.
     fn cos(self) -> Self;
+    /// Sine and cosine of an angle in radians.
+    fn sin_cos(self) -> (Self, Self)
+    where
+        Self: Sized;
+    /// Tangent of an angle in radians.
+    fn tan(self) -> Self;
+    /// Arcsine, in radians; a NaN beyond -1 and 1.
+    fn asin(self) -> Self;
+    /// Arccosine, in radians; a NaN beyond -1 and 1.
+    fn acos(self) -> Self;
+    /// Arctangent, in radians.
+    fn atan(self) -> Self;
+    /// The angle of the vector `(x, self)` from the x axis, in radians from -pi to pi.
+    fn atan2(self, x: Self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
     /// `self` to the power `exponent`.
     fn powf(self, exponent: Self) -> Self;
     /// e to the power `self`.
     fn exp(self) -> Self;
+    /// 2 to the power `self`.
+    fn exp2(self) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
+    /// Logarithm of base 2.
+    fn log2(self) -> Self;
+    /// Logarithm of base 10.
+    fn log10(self) -> Self;
     /// Greatest integer not above.
     fn floor(self) -> Self;
+    /// Least integer not below.
+    fn ceil(self) -> Self;
+    /// The integer part.
+    fn trunc(self) -> Self;
+    /// Nearest integer, halves away from zero.
+    fn round(self) -> Self;
+    /// Nearest integer, halves to the even one: one instruction, where [`round`](Math::round) is some.
+    fn round_ties_even(self) -> Self;
     /// `self * a + b` with one rounding.
     fn mul_add(self, a: Self, b: Self) -> Self;
 }
 
 macro_rules! math {
-    ($($name:ident($($arg:ident),*) => $device:ident;)*) => {
+    ($($name:ident($($arg:ident),*) -> $result:ty = $device:ident;)*) => {
         impl Math for f32 {$(
             #[inline(always)]
-            fn $name(self $(, $arg: f32)*) -> f32 {
+            fn $name(self $(, $arg: f32)*) -> $result {
                 #[cfg(target_arch = "nvptx64")]
                 return libm::$device(self $(, $arg)*);
                 #[cfg(not(target_arch = "nvptx64"))]
@@ -37,14 +85,32 @@ macro_rules! math {
 }
 
 math! {
-    sqrt() => sqrtf;
-    sin() => sinf;
-    cos() => cosf;
-    powf(exponent) => powf;
-    exp() => expf;
-    ln() => logf;
-    floor() => floorf;
-    mul_add(a, b) => fmaf;
+    sqrt() -> f32 = sqrtf;
+    cbrt() -> f32 = cbrtf;
+    hypot(other) -> f32 = hypotf;
+    sin() -> f32 = sinf;
+    cos() -> f32 = cosf;
+    sin_cos() -> (f32, f32) = sincosf;
+    tan() -> f32 = tanf;
+    asin() -> f32 = asinf;
+    acos() -> f32 = acosf;
+    atan() -> f32 = atanf;
+    atan2(x) -> f32 = atan2f;
+    sinh() -> f32 = sinhf;
+    cosh() -> f32 = coshf;
+    tanh() -> f32 = tanhf;
+    powf(exponent) -> f32 = powf;
+    exp() -> f32 = expf;
+    exp2() -> f32 = exp2f;
+    ln() -> f32 = logf;
+    log2() -> f32 = log2f;
+    log10() -> f32 = log10f;
+    floor() -> f32 = floorf;
+    ceil() -> f32 = ceilf;
+    trunc() -> f32 = truncf;
+    round() -> f32 = roundf;
+    round_ties_even() -> f32 = rintf;
+    mul_add(a, b) -> f32 = fmaf;
 }
 
 /// Sine and cosine of `turns` full turns, for |turns| up to 2^20: within 1.5e-7 of the true value, on both machines.

@@ -2,7 +2,8 @@
 //!
 //! `no_std` crates such as glam call the `libm` crate, whose `sqrtf` is some 80 integer instructions. The device
 //! build replaces that crate by one of the same version which compiles `sqrt`, `floor`, `fma` and the like to the
-//! machine's instructions, does sine and cosine in `f32`, and takes every other function from the original.
+//! machine's instructions, computes the elementary functions of `f32` in `f32`, and takes every other function from the
+//! original.
 
 use std::path::{Path, PathBuf};
 
@@ -14,8 +15,13 @@ use crate::util::{self, toml_string, write_if_changed};
 /// told apart in a lock file.
 pub(crate) const SOFTWARE: &str = "optix-libm-software";
 
-const SOURCES: [(&str, &str); 2] = [
+const SOURCES: [(&str, &str); 7] = [
     ("src/lib.rs", include_str!("../templates/libm/lib.rs")),
+    ("src/exp.rs", include_str!("../templates/libm/exp.rs")),
+    ("src/hyperbolic.rs", include_str!("../templates/libm/hyperbolic.rs")),
+    ("src/inverse.rs", include_str!("../templates/libm/inverse.rs")),
+    ("src/log.rs", include_str!("../templates/libm/log.rs")),
+    ("src/root.rs", include_str!("../templates/libm/root.rs")),
     ("src/sin_cos.rs", include_str!("../templates/libm/sin_cos.rs")),
 ];
 

@@ -5,7 +5,7 @@
 #[cfg(target_arch = "nvptx64")]
 mod ptx;
 #[cfg(target_arch = "nvptx64")]
-pub use ptx::{Cx, ParamsBase, check, is_back_face, load_param, primitive_type_of, trap, unwritten};
+pub use ptx::{Cx, ParamsBase, approximate, check, is_back_face, load_param, primitive_type_of, trap, unwritten};
 
 #[cfg(not(target_arch = "nvptx64"))]
 mod host;

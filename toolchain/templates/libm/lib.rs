@@ -1,11 +1,24 @@
-//! `libm` for the device: what the machine has an instruction for is that instruction, sine and cosine are done in `f32`,
-//! the rest is the original.
+//! `libm` for the device: what the machine has an instruction for is that instruction; the elementary functions of `f32`
+//! are computed in `f32`, at which a GPU is 32 to 64 times faster than at `f64`; the rest is the original.
+//!
+//! Errors are stated for correctly rounded division and square root. `fmaf` stands where a bound needs it, so they hold
+//! whether or not the compiler contracts the other operations.
 #![no_std]
 #![feature(core_float_math)]
 
+mod exp;
+mod hyperbolic;
+mod inverse;
+mod log;
+mod root;
 mod sin_cos;
 
-pub use sin_cos::{cosf, sincosf, sinf};
+pub use exp::{exp2f, exp10f, expf};
+pub use hyperbolic::{coshf, sinhf, tanhf};
+pub use inverse::{acosf, asinf, atan2f, atanf};
+pub use log::{log2f, log10f, logf, powf};
+pub use root::{cbrtf, hypotf};
+pub use sin_cos::{cosf, sincosf, sinf, tanf};
 pub use software::*;
 
 /// Functions of one float type that are instructions. Each is an item of its own, and so goes before the glob import.

@@ -58,6 +58,26 @@ pub fn cosf(x: f32) -> f32 {
     sincosf(x).1
 }
 
+/// (tan(r) - r) / r^3 as a polynomial of r^2, on |r| <= 0.8.
+const TAN: [f32; 7] =
+    [0.333_333_55, 0.133_324_68, 0.054_082_677, 0.021_162_005, 0.011_152_945, -0.000_318_390_5, 0.004_579_930_6];
+
+/// `tan(x)`, `x` in radians. Error below 2.6 ulp, found by trying every `f32`.
+#[inline(always)]
+pub fn tanf(x: f32) -> f32 {
+    let (quadrant, r) = if x.abs() <= LIMIT { reduce(x) } else { reduce_large(x) };
+    let r2 = r * r;
+    let mut p = TAN[6];
+    p = fmaf(p, r2, TAN[5]);
+    p = fmaf(p, r2, TAN[4]);
+    p = fmaf(p, r2, TAN[3]);
+    p = fmaf(p, r2, TAN[2]);
+    p = fmaf(p, r2, TAN[1]);
+    p = fmaf(p, r2, TAN[0]);
+    let tan = fmaf(p, r2 * r, r);
+    if quadrant & 1 == 0 { tan } else { -1.0 / tan }
+}
+
 /// `x` as a multiple of pi/2, of which the low two bits matter, plus the rest.
 #[inline(always)]
 fn reduce(x: f32) -> (u32, f32) {

@@ -4,6 +4,7 @@
 //! each asm block declares `.f32` registers of its own and moves the bits across. Names, order, register types and
 //! volatility follow the public device headers of OptiX 9.0 as facts.
 
+pub mod approximate;
 #[macro_use]
 mod call;
 mod callable;
