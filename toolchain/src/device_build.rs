@@ -10,7 +10,9 @@ use crate::error::{Doing, Error};
 use crate::libm::{PatchedLibm, SOFTWARE};
 use crate::lock;
 use crate::metadata::{Package, Workspace};
-use crate::options::Shaders;
+#[cfg(feature = "nvvm")]
+use crate::nvvm;
+use crate::options::{Codegen, Shaders};
 use crate::ptx;
 use crate::sysroot;
 use crate::util;
@@ -114,16 +116,11 @@ impl<'a> Session<'a> {
         }
         lock::seed(&wrapper.dir, &locked)?;
         let target_dir = self.target_dir();
-        let ptx = self.own.join(format!("{}.ptx", wrapper.library));
-        self.run_cargo(&wrapper, &target_dir, &ptx)?;
-
-        let mut text = util::read(&ptx)?;
-        let mut written = ptx;
-        if self.shaders.ftz {
-            text = ptx::ftz::flushed(&text);
-            written.set_extension("ftz.ptx");
-            util::write_if_changed(&written, &text)?;
-        }
+        let (text, written) = match self.shaders.codegen {
+            Codegen::Rustc => self.generate(&wrapper, &target_dir)?,
+            #[cfg(feature = "nvvm")]
+            Codegen::Nvvm => self.generate_by_nvvm(&wrapper, &target_dir)?,
+        };
         let module = ptx::Module::read(&text).map_err(|problem| Error::Ptx { path: written.clone(), problem })?;
         let mut inputs = sources(&target_dir, &wrapper)?;
         let local = self.graph.packages.iter().filter(|package| package.source.is_none());
@@ -141,7 +138,47 @@ impl<'a> Session<'a> {
         })
     }
 
-    fn run_cargo(&self, wrapper: &Wrapper, target_dir: &Path, ptx: &Path) -> Result<(), Error> {
+    /// The PTX of rustc's own code generator, and where it is.
+    fn generate(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(String, PathBuf), Error> {
+        let mut ptx = self.own.join(format!("{}.ptx", wrapper.library));
+        self.run_cargo(wrapper, target_dir, "asm", &ptx)?;
+        let mut text = util::read(&ptx)?;
+        if self.shaders.ftz {
+            text = ptx::ftz::flushed(&text);
+            ptx.set_extension("ftz.ptx");
+            util::write_if_changed(&ptx, &text)?;
+        }
+        Ok((text, ptx))
+    }
+
+    /// The PTX that libNVVM makes of rustc's LLVM IR, and where it is.
+    #[cfg(feature = "nvvm")]
+    fn generate_by_nvvm(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(String, PathBuf), Error> {
+        let library = nvvm::choose().map_err(Error::NoNvvm)?;
+        let ir = self.own.join(format!("{}.ll", wrapper.library));
+        self.run_cargo(wrapper, target_dir, "llvm-ir", &ir)?;
+        let ir = util::read(&ir)?;
+        // The PTX stays as long as what it was made of does.
+        let options = nvvm::options(self.shaders).join(" ");
+        let library_path = library.path.to_string_lossy();
+        let key = util::hash([ir.as_str(), &options, &library_path, env!("CARGO_PKG_VERSION")]);
+        let ptx = self.own.join(format!("{}.nvvm.ptx", wrapper.library));
+        let made_of = ptx.with_extension("key");
+        let made = if util::read(&made_of).is_ok_and(|old| old == key) { util::read(&ptx).ok() } else { None };
+        let text = match made {
+            Some(text) => text,
+            None => {
+                let text = nvvm::ptx(&library, self.shaders, &ir)?;
+                util::write_if_changed(&ptx, &text)?;
+                util::write_if_changed(&made_of, &key)?;
+                text
+            }
+        };
+        Ok((text, ptx))
+    }
+
+    /// Has rustc emit `what` of the wrapper package to the file `to`.
+    fn run_cargo(&self, wrapper: &Wrapper, target_dir: &Path, what: &str, to: &Path) -> Result<(), Error> {
         let run = || {
             let mut command = cargo::command(&wrapper.dir);
             command
@@ -150,7 +187,7 @@ impl<'a> Session<'a> {
                 .arg("--target-dir")
                 .arg(target_dir)
                 .arg("--")
-                .arg(format!("--emit=asm={}", ptx.display()))
+                .arg(format!("--emit={what}={}", to.display()))
                 .env("RUSTC", &self.compiler.rustc)
                 .env("RUSTC_BOOTSTRAP", "1")
                 // Also where a configuration file names a wrapper.
@@ -160,7 +197,7 @@ impl<'a> Session<'a> {
             cargo::run(&mut command, &format!("compiling {} for the device", self.package.name))
         };
         run()?;
-        if !ptx.is_file() {
+        if !to.is_file() {
             // Somebody removed it. Cargo does not know of the file, but it does look at the source's time.
             let source = wrapper.dir.join("src/lib.rs");
             let text = util::read(&source)?;

@@ -48,6 +48,15 @@ pub enum Error {
         /// What is wrong with it.
         problem: ptx::Problem,
     },
+    /// No libNVVM on this machine does.
+    #[cfg(feature = "nvvm")]
+    NoNvvm(String),
+    /// libNVVM has failed.
+    #[cfg(feature = "nvvm")]
+    Nvvm(crate::nvvm::Failure),
+    /// The shader crate has something that can't be translated for libNVVM.
+    #[cfg(feature = "nvvm")]
+    Refused(crate::nvvm::Refusal),
     /// A program's output was not what it should be.
     Output {
         /// What was being read.
@@ -92,6 +101,14 @@ impl fmt::Display for Error {
                 write!(f, "{doing} failed ({status}); its own messages say why")
             }
             Self::Ptx { path, problem } => write!(f, "{}: {problem}", path.display()),
+            #[cfg(feature = "nvvm")]
+            Self::NoNvvm(reason) => {
+                write!(f, "no libNVVM ({reason}); run `cargo optix setup --nvvm`, or name one by OPTIX_NVVM")
+            }
+            #[cfg(feature = "nvvm")]
+            Self::Nvvm(failure) => write!(f, "{failure}"),
+            #[cfg(feature = "nvvm")]
+            Self::Refused(refusal) => write!(f, "{refusal}"),
             Self::Output { of, reason } => write!(f, "unexpected output of {of}: {reason}"),
             Self::Io { doing, source } => write!(f, "{doing}: {source}"),
         }

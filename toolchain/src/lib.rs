@@ -44,6 +44,8 @@ pub mod json;
 mod libm;
 mod lock;
 mod metadata;
+#[cfg(feature = "nvvm")]
+pub mod nvvm;
 mod options;
 pub mod ptx;
 mod sysroot;
@@ -59,7 +61,7 @@ pub use compiler::{Candidate, DeviceCompiler, MINIMUM, Rejected, Release, Why};
 pub use device_build::Built;
 pub use error::Error;
 pub use metadata::{Package, Workspace};
-pub use options::{DEFAULT_ARCH, Shaders};
+pub use options::{Codegen, DEFAULT_ARCH, Shaders};
 
 /// Compiles the shader crate in `path` with the default [options](Shaders). To be called from a `build.rs`.
 ///

@@ -13,6 +13,17 @@ use crate::util;
 /// Turing needs an older architecture here (OptiX 9 on driver 580 takes them from Maxwell, `sm_50`, on).
 pub const DEFAULT_ARCH: &str = "sm_75";
 
+/// What makes PTX of the LLVM IR that `rustc` writes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Codegen {
+    /// `rustc`'s own NVPTX back end.
+    #[default]
+    Rustc,
+    /// NVIDIA's libNVVM, which nvcc uses as well, [loaded](crate::nvvm) at run time. Line information is not kept.
+    #[cfg(feature = "nvvm")]
+    Nvvm,
+}
+
 /// A shader crate and how to compile it; [`shaders`](crate::shaders) with options.
 ///
 /// The defaults are nvcc's: multiplications and additions contract to `fma`, division and square root are correctly
@@ -26,6 +37,7 @@ pub const DEFAULT_ARCH: &str = "sm_75";
 pub struct Shaders {
     pub(crate) path: PathBuf,
     pub(crate) arch: String,
+    pub(crate) codegen: Codegen,
     pub(crate) fmad: bool,
     pub(crate) ftz: bool,
     pub(crate) prec_div: bool,
@@ -43,6 +55,7 @@ impl Shaders {
         Self {
             path: path.as_ref().to_path_buf(),
             arch: DEFAULT_ARCH.to_string(),
+            codegen: Codegen::default(),
             fmad: true,
             ftz: false,
             prec_div: true,
@@ -57,6 +70,12 @@ impl Shaders {
     /// The oldest architecture that the PTX has to run on, such as `sm_86`. Default: [`DEFAULT_ARCH`].
     pub fn arch(mut self, arch: impl Into<String>) -> Self {
         self.arch = arch.into();
+        self
+    }
+
+    /// What makes the PTX. Default: [`Codegen::Rustc`].
+    pub fn codegen(mut self, codegen: Codegen) -> Self {
+        self.codegen = codegen;
         self
     }
 
@@ -156,7 +175,7 @@ impl Shaders {
     /// Tells builds apart whose intermediate files must not be mixed.
     pub(crate) fn key(&self, dir: &Path) -> String {
         let switches = [self.fmad, self.ftz, self.prec_div, self.prec_sqrt, self.line_info, self.default_features];
-        let switches = format!("{switches:?}");
+        let switches = format!("{switches:?}{:?}", self.codegen);
         let dir = dir.to_string_lossy();
         let parts = [dir.as_ref(), self.arch.as_str(), switches.as_str()];
         util::hash(parts.into_iter().chain(self.features.iter().map(String::as_str)))

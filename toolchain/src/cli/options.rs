@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::ArgAction::Set;
-use optix_toolchain::Shaders;
+use optix_toolchain::{Codegen, Shaders};
 
 /// Which crates, and how.
 #[derive(clap::Args)]
@@ -11,6 +11,9 @@ pub(super) struct Options {
     /// The folder of one shader crate.
     #[arg(long = "crate", value_name = "PATH")]
     pub path: Option<PathBuf>,
+    /// What makes the PTX.
+    #[arg(long, value_enum, default_value_t = Generator::Rustc)]
+    codegen: Generator,
     /// Whether `a * b + c` may become one `fma`.
     #[arg(long, value_name = "BOOL", default_value_t = true, action = Set)]
     fmad: bool,
@@ -28,11 +31,23 @@ pub(super) struct Options {
     debug: bool,
 }
 
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Generator {
+    /// rustc's own back end.
+    Rustc,
+    /// NVIDIA's libNVVM: `cargo optix setup --nvvm` installs it.
+    Nvvm,
+}
+
 impl Options {
     /// The crate in `path`, to be compiled so.
     pub fn shaders(&self, path: &Path, arch: &str) -> Shaders {
-        let Self { path: _, fmad, ftz, prec_div, prec_sqrt, debug } = *self;
-        let shaders = Shaders::new(path).arch(arch).line_info(debug);
+        let Self { path: _, codegen, fmad, ftz, prec_div, prec_sqrt, debug } = *self;
+        let codegen = match codegen {
+            Generator::Rustc => Codegen::Rustc,
+            Generator::Nvvm => Codegen::Nvvm,
+        };
+        let shaders = Shaders::new(path).arch(arch).codegen(codegen).line_info(debug);
         shaders.fmad(fmad).ftz(ftz).prec_div(prec_div).prec_sqrt(prec_sqrt)
     }
 }

@@ -1,0 +1,32 @@
+//! From `rustc`'s LLVM IR to PTX, with the options of a device build.
+
+use super::{Dialect, Library, find, translate};
+use crate::error::{Doing, Error};
+use crate::options::Shaders;
+
+/// nvcc's options for libNVVM.
+pub(crate) fn options(shaders: &Shaders) -> Vec<String> {
+    let switch = |name: &str, on: bool| format!("-{name}={}", u8::from(on));
+    vec![
+        format!("-arch={}", shaders.arch.replacen("sm_", "compute_", 1)),
+        switch("ftz", shaders.ftz),
+        switch("prec-div", shaders.prec_div),
+        switch("prec-sqrt", shaders.prec_sqrt),
+        switch("fma", shaders.fmad),
+    ]
+}
+
+/// Compiles the IR of a shader crate.
+pub(crate) fn ptx(library: &Library, shaders: &Shaders, ir: &str) -> Result<String, Error> {
+    let dialect = Dialect::of(&shaders.arch)
+        .ok_or_else(|| Error::UnknownArch { arch: shaders.arch.clone(), known: vec!["sm_75 and newer".into()] })?;
+    let module = translate(ir, dialect).map_err(Error::Refused)?;
+    let libdevice = if module.needs_libdevice {
+        let path = find::libdevice(&library.path)
+            .ok_or_else(|| Error::NoNvvm(format!("there is no libdevice.10.bc beside {}", library.path.display())))?;
+        Some(std::fs::read(&path).doing(|| format!("cannot read {}", path.display()))?)
+    } else {
+        None
+    };
+    library.compile(&module, libdevice.as_deref(), &options(shaders)).map_err(Error::Nvvm)
+}

@@ -1,0 +1,130 @@
+//! Modern LLVM IR to the instructions that LLVM 7 has.
+//!
+//! Each instruction that LLVM 7 does not know becomes several that it does, in the same block; pointers without a
+//! pointee stay what they are, since only the printer has to name pointees. What is not known is refused.
+
+mod atomics;
+mod builder;
+mod endless;
+mod floats;
+mod freeze;
+mod integers;
+mod intrinsics;
+mod libdevice;
+mod reduce;
+
+use std::collections::{BTreeMap, HashSet};
+
+use super::model::{Argument, Function, Instruction, Module, Op, Type, Typed, Value};
+use super::refusal::{Refusal, Unknown};
+use builder::Builder;
+pub(super) use builder::FRESH;
+
+/// The functions that lowered code calls, by name: result and parameters.
+type Called = BTreeMap<String, (Type, Vec<Type>)>;
+
+/// A lowered instruction's value: what its result is from now on. None: it has none.
+type Lowered = Result<Option<Typed>, Unknown>;
+
+/// Lowers every function. `text` is what the module was read from. Returns whether it needs libdevice.
+pub(super) fn module(module: &mut Module, text: &str) -> Result<bool, Refusal> {
+    let mut called = Called::new();
+    let is_own = |function: &&Function| !function.blocks.is_empty();
+    let own: HashSet<String> = module.functions.iter().filter(is_own).map(|function| function.name.clone()).collect();
+    for function in &mut module.functions {
+        self::function(function, &mut called, &own, text)?;
+    }
+    // What was declared for the newer LLVM; calls of them are gone, or were declared anew.
+    module.functions.retain(|function| {
+        let replaced = function.name.starts_with("llvm.") || libdevice::of_symbol(&function.name).is_some();
+        !function.blocks.is_empty() || !replaced
+    });
+    let needs_libdevice = called.keys().any(|name| name.starts_with(libdevice::PREFIX));
+    module
+        .functions
+        .extend(called.into_iter().map(|(name, (result, parameters))| declaration(name, result, parameters)));
+    Ok(needs_libdevice)
+}
+
+fn declaration(name: String, result: Type, parameters: Vec<Type>) -> Function {
+    let parameter =
+        |ty| Argument { value: Typed::new(ty, Value::Undef), attributes: Vec::new(), by_value: None, align: None };
+    Function {
+        name,
+        linkage: None,
+        kernel: false,
+        result,
+        parameters: parameters.into_iter().map(parameter).collect(),
+        variadic: false,
+        attributes: vec!["nounwind".into()],
+        blocks: Vec::new(),
+        line: 0,
+    }
+}
+
+fn function(function: &mut Function, called: &mut Called, own: &HashSet<String>, text: &str) -> Result<(), Refusal> {
+    let defined = freeze::defined(function);
+    let mut builder = Builder::new(called, own, defined);
+    for block in &mut function.blocks {
+        for instruction in std::mem::take(&mut block.instructions) {
+            builder.line = instruction.line;
+            lower(&mut builder, instruction).map_err(|unknown| unknown.at(text, builder.line, &function.name))?;
+        }
+        block.instructions = builder.take();
+    }
+    let renamed = builder.into_renamed();
+    for instruction in function.blocks.iter_mut().flat_map(|block| &mut block.instructions) {
+        instruction.op.values_mut(&mut |value| {
+            // A value may stand for one that stands for another; there are no circles, since each came later.
+            while let Value::Local(name) = value
+                && let Some(other) = renamed.get(name)
+            {
+                *value = other.clone();
+            }
+        });
+    }
+    endless::mark(function);
+    Ok(())
+}
+
+/// Appends what the instruction becomes.
+fn lower(builder: &mut Builder<'_>, instruction: Instruction) -> Result<(), Unknown> {
+    let value = match &instruction.op {
+        Op::Freeze { value } => freeze::lower(builder, value).map(Some),
+        Op::Negate { value } => floats::negate(builder, value).map(Some),
+        Op::Binary { op, a, b, .. } if op == "frem" => {
+            floats::remainder(builder, a, &Typed::new(a.ty.clone(), b.clone())).map(Some)
+        }
+        Op::Load { ty, pointer, ordering: Some(ordering), .. } => {
+            atomics::load(builder, ty, pointer, ordering).map(Some)
+        }
+        Op::Store { value, pointer, ordering: Some(ordering), .. } => {
+            atomics::store(builder, value, pointer, ordering).map(|()| None)
+        }
+        Op::ReadModifyWrite { op, pointer, value, ordering } => {
+            atomics::read_modify_write(builder, op, pointer, value, ordering).map(Some)
+        }
+        Op::CompareExchange { pointer, expected, new, ordering } => {
+            atomics::compare_exchange(builder, pointer, expected, new, ordering).map(Some)
+        }
+        Op::Fence(ordering) => atomics::fence(builder, ordering).map(|()| None),
+        Op::Call(call) => match call.name() {
+            Some(name) if name.starts_with("llvm.") => intrinsics::lower(builder, call, name),
+            Some(name) if libdevice::of_symbol(name).is_some() && !builder.is_own(name) => {
+                libdevice::call_of_symbol(builder, call, name)
+            }
+            _ => {
+                builder.keep(instruction);
+                return Ok(());
+            }
+        },
+        _ => {
+            builder.keep(instruction);
+            return Ok(());
+        }
+    }?;
+    if let (Some(result), Some(value)) = (instruction.result, value) {
+        builder.rename(result, value.value);
+    }
+    Ok(())
+}

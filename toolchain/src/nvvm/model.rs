@@ -1,0 +1,305 @@
+//! LLVM IR as values: what rustc writes for device code after link-time optimisation.
+//!
+//! Poison is `undef` here, which is one of the things that poison may become. Attributes and flags that a reader may
+//! leave out without changing what a program means are left out by the parser, unless both dialects know them.
+
+use std::collections::BTreeMap;
+
+/// A type. What LLVM has beyond these is refused by the parser.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Type {
+    Void,
+    Label,
+    Metadata,
+    Int(u32),
+    Half,
+    Float,
+    Double,
+    /// A pointer to the address space.
+    Pointer(u32),
+    Array(u64, Box<Type>),
+    Vector(u64, Box<Type>),
+    Struct {
+        fields: Vec<Type>,
+        packed: bool,
+    },
+    Named(String),
+}
+
+impl Type {
+    pub const BOOL: Self = Self::Int(1);
+
+    /// The bits of a number, or of a pointer; none for what is not a scalar.
+    pub fn bits(&self) -> Option<u32> {
+        match self {
+            Self::Int(bits) => Some(*bits),
+            Self::Half => Some(16),
+            Self::Float => Some(32),
+            Self::Double | Self::Pointer(_) => Some(64),
+            _ => None,
+        }
+    }
+
+    pub fn is_float(&self) -> bool {
+        matches!(self, Self::Half | Self::Float | Self::Double)
+    }
+
+    /// The type of each element of a vector; the type itself if it is none.
+    pub fn element(&self) -> &Self {
+        if let Self::Vector(_, element) = self { element } else { self }
+    }
+
+    /// A vector as long as this one of other elements; the element type if this is no vector.
+    pub fn with_element(&self, element: Self) -> Self {
+        if let Self::Vector(count, _) = self { Self::Vector(*count, Box::new(element)) } else { element }
+    }
+}
+
+/// A value without its type.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Value {
+    Local(String),
+    Global(String),
+    /// An integer or a float as it was written, `true` or `false`.
+    Number(String),
+    Null,
+    Undef,
+    /// `zeroinitializer`
+    Zero,
+    /// Elements or fields, as the type says.
+    Aggregate(Vec<Typed>),
+    /// `c"..."` with its escapes.
+    Bytes(String),
+    Expression(Box<Expression>),
+    /// `!5`, as an argument.
+    Metadata(String),
+}
+
+impl Value {
+    pub fn int(value: i128) -> Self {
+        Self::Number(value.to_string())
+    }
+
+    /// The value of an integer constant.
+    pub fn as_int(&self) -> Option<i128> {
+        match self {
+            Self::Number(text) if text == "true" => Some(1),
+            Self::Number(text) if text == "false" => Some(0),
+            Self::Number(text) => text.parse().ok(),
+            Self::Zero => Some(0),
+            _ => None,
+        }
+    }
+}
+
+/// A value with its type.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Typed {
+    pub ty: Type,
+    pub value: Value,
+}
+
+impl Typed {
+    pub fn new(ty: Type, value: Value) -> Self {
+        Self { ty, value }
+    }
+
+    pub fn int(bits: u32, value: i128) -> Self {
+        Self::new(Type::Int(bits), Value::int(value))
+    }
+}
+
+/// A constant that is computed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Expression {
+    Cast { op: String, value: Typed, to: Type },
+    Address { inbounds: bool, of: Type, base: Typed, indices: Vec<Typed> },
+    Binary { op: String, a: Typed, b: Typed },
+}
+
+/// How memory is ordered around an atomic operation, and for whom.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Ordering {
+    /// `monotonic`, `acquire` and so on.
+    pub order: String,
+    /// `syncscope("..")`; empty for the system.
+    pub scope: String,
+}
+
+/// What a call or a function may do, and may be done with it, in LLVM 7's words.
+pub(super) type Attributes = Vec<String>;
+
+/// An argument or a parameter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Argument {
+    pub value: Typed,
+    pub attributes: Attributes,
+    /// A copy is passed of what the pointer points to.
+    pub by_value: Option<Type>,
+    pub align: Option<u64>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Callee {
+    Function(Value),
+    Asm { text: String, constraints: String, side_effect: bool },
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Call {
+    pub tail: bool,
+    pub flags: Vec<String>,
+    pub result: Type,
+    pub callee: Callee,
+    pub arguments: Vec<Argument>,
+    pub attributes: Attributes,
+}
+
+impl Call {
+    /// The name of the function that is called, if it is known.
+    pub fn name(&self) -> Option<&str> {
+        if let Callee::Function(Value::Global(name)) = &self.callee { Some(name) } else { None }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Op {
+    Binary { op: String, flags: Vec<String>, a: Typed, b: Value },
+    Negate { value: Typed },
+    Freeze { value: Typed },
+    Cast { op: String, value: Typed, to: Type },
+    Compare { op: String, flags: Vec<String>, predicate: String, a: Typed, b: Value },
+    Select { condition: Typed, yes: Typed, no: Typed },
+    Phi { ty: Type, incoming: Vec<(Value, String)> },
+    Load { ty: Type, pointer: Typed, align: Option<u64>, volatile: bool, ordering: Option<Ordering> },
+    Store { value: Typed, pointer: Typed, align: Option<u64>, volatile: bool, ordering: Option<Ordering> },
+    Address { inbounds: bool, of: Type, base: Typed, indices: Vec<Typed> },
+    Alloca { ty: Type, count: Option<Typed>, align: Option<u64> },
+    ExtractValue { aggregate: Typed, indices: Vec<u64> },
+    InsertValue { aggregate: Typed, value: Typed, indices: Vec<u64> },
+    ExtractElement { vector: Typed, index: Typed },
+    InsertElement { vector: Typed, value: Typed, index: Typed },
+    Shuffle { a: Typed, b: Typed, mask: Typed },
+    ReadModifyWrite { op: String, pointer: Typed, value: Typed, ordering: Ordering },
+    CompareExchange { pointer: Typed, expected: Typed, new: Typed, ordering: Ordering },
+    Fence(Ordering),
+    Call(Call),
+    Return(Option<Typed>),
+    Jump(String),
+    Branch { condition: Value, yes: String, no: String },
+    Switch { value: Typed, default: String, cases: Vec<(Value, String)> },
+    Unreachable,
+}
+
+impl Op {
+    /// Calls `f` with each value that it uses.
+    pub fn values_mut(&mut self, f: &mut impl FnMut(&mut Value)) {
+        match self {
+            Self::Binary { a, b, .. } | Self::Compare { a, b, .. } => {
+                f(&mut a.value);
+                f(b);
+            }
+            Self::Negate { value } | Self::Freeze { value } | Self::Cast { value, .. } => f(&mut value.value),
+            Self::Select { condition, yes, no } => [condition, yes, no].into_iter().for_each(|v| f(&mut v.value)),
+            Self::Phi { incoming, .. } => incoming.iter_mut().for_each(|(value, _)| f(value)),
+            Self::Load { pointer, .. } => f(&mut pointer.value),
+            Self::Store { value, pointer, .. } | Self::ReadModifyWrite { value, pointer, .. } => {
+                f(&mut value.value);
+                f(&mut pointer.value);
+            }
+            Self::Address { base, indices, .. } => {
+                f(&mut base.value);
+                indices.iter_mut().for_each(|index| f(&mut index.value));
+            }
+            Self::Alloca { count, .. } => count.iter_mut().for_each(|count| f(&mut count.value)),
+            Self::ExtractValue { aggregate, .. } => f(&mut aggregate.value),
+            Self::InsertValue { aggregate, value, .. } => [aggregate, value].into_iter().for_each(|v| f(&mut v.value)),
+            Self::ExtractElement { vector, index } => [vector, index].into_iter().for_each(|v| f(&mut v.value)),
+            Self::InsertElement { vector, value, index } => {
+                [vector, value, index].into_iter().for_each(|v| f(&mut v.value));
+            }
+            Self::Shuffle { a, b, .. } => [a, b].into_iter().for_each(|v| f(&mut v.value)),
+            Self::CompareExchange { pointer, expected, new, .. } => {
+                [pointer, expected, new].into_iter().for_each(|v| f(&mut v.value));
+            }
+            Self::Call(call) => {
+                if let Callee::Function(function) = &mut call.callee {
+                    f(function);
+                }
+                call.arguments.iter_mut().for_each(|argument| f(&mut argument.value.value));
+            }
+            Self::Return(value) => value.iter_mut().for_each(|value| f(&mut value.value)),
+            Self::Branch { condition, .. } => f(condition),
+            Self::Switch { value, .. } => f(&mut value.value),
+            Self::Jump(_) | Self::Fence(_) | Self::Unreachable => {}
+        }
+    }
+
+    /// The blocks that come next.
+    pub fn successors(&self) -> Vec<&str> {
+        match self {
+            Self::Jump(to) => vec![to],
+            Self::Branch { yes, no, .. } => vec![yes, no],
+            Self::Switch { default, cases, .. } => {
+                std::iter::once(default).chain(cases.iter().map(|(_, to)| to)).map(String::as_str).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Instruction {
+    pub result: Option<String>,
+    pub op: Op,
+    /// What hangs on it, as `("range", "!5")`.
+    pub metadata: Vec<(String, String)>,
+    /// The line of the source text, from 0.
+    pub line: usize,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Block {
+    pub name: String,
+    pub instructions: Vec<Instruction>,
+}
+
+/// A function; a declaration has no blocks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Function {
+    pub name: String,
+    pub linkage: Option<String>,
+    pub kernel: bool,
+    pub result: Type,
+    /// The value is the parameter's name, or undefined where there is none.
+    pub parameters: Vec<Argument>,
+    pub variadic: bool,
+    pub attributes: Attributes,
+    pub blocks: Vec<Block>,
+    pub line: usize,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Variable {
+    pub name: String,
+    pub linkage: Option<String>,
+    pub unnamed_address: bool,
+    pub space: u32,
+    pub constant: bool,
+    pub ty: Type,
+    pub value: Option<Value>,
+    pub section: Option<String>,
+    pub align: Option<u64>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Module {
+    /// The lines of `module asm`, with their escapes.
+    pub asm: Vec<String>,
+    /// Named types; one without fields is opaque.
+    pub types: Vec<(String, Option<Type>)>,
+    pub variables: Vec<Variable>,
+    pub functions: Vec<Function>,
+    /// `!5 = ..`, by name and text.
+    pub metadata: BTreeMap<String, String>,
+}

@@ -1,0 +1,207 @@
+//! A lowered [`Module`] as the text that libNVVM reads.
+
+mod instructions;
+mod metadata;
+mod types;
+mod values;
+
+use std::collections::HashMap;
+use std::fmt::Write;
+
+use super::Dialect;
+use super::model::{Argument, Function, Instruction, Module, Op, Variable};
+use super::refusal::{Refusal, Unknown};
+
+/// NVVM's data layout, which rustc's agrees with.
+const LAYOUT: &str = "e-p:64:64:64-i1:8:8-i8:8:8-i16:16:16-i32:32:32-i64:64:64-i128:128:128-f32:32:32-f64:64:64-v16:16:16-\
+                      v32:32:32-v64:64:64-v128:128:128-n16:32:64";
+
+/// Prints the module; `text` is what it was read from.
+pub(super) fn module(module: &Module, dialect: Dialect, text: &str) -> Result<String, Refusal> {
+    let mut printer = Printer {
+        module,
+        dialect,
+        functions: module.functions.iter().map(|function| (function.name.as_str(), function)).collect(),
+        variables: module.variables.iter().map(|variable| (variable.name.as_str(), variable)).collect(),
+        out: String::new(),
+        count: 0,
+        line: 0,
+    };
+    printer.head().map_err(|unknown| unknown.at(text, usize::MAX, ""))?;
+    for function in &module.functions {
+        printer.line = function.line;
+        printer.function(function).map_err(|unknown| unknown.at(text, printer.line, &function.name))?;
+    }
+    printer.metadata();
+    Ok(printer.out)
+}
+
+struct Printer<'m> {
+    module: &'m Module,
+    dialect: Dialect,
+    functions: HashMap<&'m str, &'m Function>,
+    variables: HashMap<&'m str, &'m Variable>,
+    out: String,
+    /// Of the names that are made here.
+    count: usize,
+    /// The line of the source that is being printed.
+    line: usize,
+}
+
+type Printed<T = String> = Result<T, Unknown>;
+
+impl<'m> Printer<'m> {
+    /// Appends a line. Writing to a string does not fail.
+    fn say(&mut self, line: impl std::fmt::Display) {
+        let _ = writeln!(self.out, "{line}");
+    }
+
+    /// A name of our own.
+    fn fresh(&mut self) -> String {
+        self.count += 1;
+        format!("%p.{}", self.count)
+    }
+
+    fn head(&mut self) -> Printed<()> {
+        self.say(format_args!("target datalayout = \"{LAYOUT}\""));
+        self.say("target triple = \"nvptx64-nvidia-cuda\"");
+        for line in &self.module.asm {
+            self.say(format_args!("module asm \"{line}\""));
+        }
+        for (name, ty) in &self.module.types {
+            let ty = ty.as_ref().map_or("opaque".to_string(), |ty| self.ty(ty));
+            self.say(format_args!("{} = type {ty}", types::named(name)));
+        }
+        for variable in &self.module.variables {
+            self.variable(variable)?;
+        }
+        Ok(())
+    }
+
+    fn variable(&mut self, variable: &Variable) -> Printed<()> {
+        let mut line = format!("{} = ", values::global(&variable.name));
+        if let Some(linkage) = &variable.linkage {
+            let _ = write!(line, "{linkage} ");
+        }
+        if variable.unnamed_address {
+            line.push_str("unnamed_addr ");
+        }
+        if variable.space != 0 {
+            let _ = write!(line, "addrspace({}) ", variable.space);
+        }
+        line.push_str(if variable.constant { "constant " } else { "global " });
+        line.push_str(&self.ty(&variable.ty));
+        if let Some(value) = &variable.value {
+            let _ = write!(line, " {}", self.value(&variable.ty, value)?);
+        }
+        if let Some(section) = &variable.section {
+            let _ = write!(line, ", section \"{section}\"");
+        }
+        if let Some(align) = variable.align {
+            let _ = write!(line, ", align {align}");
+        }
+        self.say(line);
+        Ok(())
+    }
+
+    fn function(&mut self, function: &'m Function) -> Printed<()> {
+        let declared = function.blocks.is_empty();
+        let mut line = String::from(if declared { "declare " } else { "define " });
+        if let Some(linkage) = &function.linkage {
+            let _ = write!(line, "{linkage} ");
+        }
+        let _ = write!(line, "{} {}(", self.ty(&function.result), self.function_name(&function.name));
+        let mut copies = Vec::new();
+        for (at, parameter) in function.parameters.iter().enumerate() {
+            line.push_str(if at == 0 { "" } else { ", " });
+            line.push_str(&self.parameter(parameter, declared, &mut copies)?);
+        }
+        if function.variadic {
+            line.push_str(if function.parameters.is_empty() { "..." } else { ", ..." });
+        }
+        line.push(')');
+        line.push_str(&self.attributes(&function.attributes));
+        if declared {
+            self.say(line);
+            return Ok(());
+        }
+        self.say(format_args!("{line} {{"));
+        for (at, block) in function.blocks.iter().enumerate() {
+            self.say(format_args!("{}:", values::local(&block.name).trim_start_matches('%')));
+            if at == 0 {
+                for copy in copies.drain(..) {
+                    self.say(copy);
+                }
+            }
+            for instruction in &block.instructions {
+                self.line = instruction.line;
+                self.instruction(instruction)?;
+            }
+        }
+        self.say("}");
+        Ok(())
+    }
+
+    /// A parameter. `copies` gets the conversion of one that is passed by value to a pointer without pointee.
+    fn parameter(&mut self, parameter: &Argument, declared: bool, copies: &mut Vec<String>) -> Printed {
+        let name = if declared { String::new() } else { format!(" {}", self.untyped(&parameter.value.value)?) };
+        let words = self.value_attributes(parameter);
+        Ok(match (&parameter.by_value, self.dialect) {
+            (Some(ty), Dialect::Llvm7) => {
+                let ty = self.ty(ty);
+                let raw = if declared { String::new() } else { self.fresh() };
+                copies.push(format!("{name} = bitcast {ty}* {raw} to i8*"));
+                format!("{ty}*{words} byval{} {raw}", align(parameter))
+            }
+            (Some(ty), Dialect::Modern) => {
+                format!("ptr{words} byval({}){}{name}", self.ty(ty), align(parameter))
+            }
+            _ => format!("{}{words}{name}", self.ty(&parameter.value.ty)),
+        })
+    }
+
+    /// Attributes of a parameter, with a space before each.
+    fn value_attributes(&self, argument: &Argument) -> String {
+        // LLVM 7 does not know the one, modern LLVM not the other.
+        let unknown = match self.dialect {
+            Dialect::Llvm7 => "noundef",
+            Dialect::Modern => "nocapture",
+        };
+        argument.attributes.iter().filter(|word| *word != unknown).map(|word| format!(" {word}")).collect()
+    }
+
+    /// Attributes of a function, with a space before each.
+    fn attributes(&self, words: &[String]) -> String {
+        let modern = |word: &str| match word {
+            "readnone" => Some("memory(none)".to_string()),
+            "readonly" if !words.iter().any(|word| word.ends_with("memonly")) => Some("memory(read)".to_string()),
+            "readonly" | "argmemonly" | "inaccessiblememonly" => None,
+            word => Some(word.to_string()),
+        };
+        let words = words.iter().filter_map(|word| match self.dialect {
+            Dialect::Llvm7 => Some(word.clone()),
+            Dialect::Modern => modern(word),
+        });
+        words.map(|word| format!(" {word}")).collect()
+    }
+
+    fn instruction(&mut self, instruction: &Instruction) -> Printed<()> {
+        let result = instruction.result.as_deref().map(values::local);
+        let mut text = self.op(&instruction.op)?;
+        if matches!(instruction.op, Op::Load { .. } | Op::Store { .. }) {
+            for (name, node) in instruction.metadata.iter().filter(|(name, _)| name != "noundef") {
+                let _ = write!(text, ", !{name} {node}");
+            }
+        }
+        match result {
+            Some(result) => self.say(format_args!("  {result} = {text}")),
+            None => self.say(format_args!("  {text}")),
+        }
+        Ok(())
+    }
+}
+
+/// ` align 8`, or nothing.
+fn align(argument: &Argument) -> String {
+    argument.align.map(|align| format!(" align {align}")).unwrap_or_default()
+}

@@ -1,0 +1,62 @@
+//! What is not translated, and why.
+
+use std::fmt;
+
+/// A construct of LLVM IR that this translation does not know.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// The Rust function it is in, as a path; empty outside of functions.
+    pub function: String,
+    /// The line of IR.
+    pub instruction: String,
+    /// What is not known about it.
+    pub reason: String,
+    /// What to do.
+    pub hint: &'static str,
+}
+
+/// The way out that is always there.
+pub(super) const OTHER_GENERATOR: &str = "compile this crate with rustc's own code generator (`--codegen rustc`)";
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("libNVVM can't be given ")?;
+        match self.function.as_str() {
+            "" => {}
+            function => write!(f, "`{function}`: ")?,
+        }
+        write!(f, "{} in `{}`; {}", self.reason, self.instruction, self.hint)
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+/// A refusal that does not know where it is yet.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Unknown {
+    pub reason: String,
+    pub hint: &'static str,
+}
+
+impl Unknown {
+    pub fn new(reason: impl Into<String>) -> Self {
+        Self { reason: reason.into(), hint: OTHER_GENERATOR }
+    }
+
+    pub fn hint(mut self, hint: &'static str) -> Self {
+        self.hint = hint;
+        self
+    }
+
+    /// The refusal of line `line` of `text`, in the function of that symbol.
+    pub fn at(self, text: &str, line: usize, symbol: &str) -> Refusal {
+        let instruction = text.lines().nth(line).unwrap_or_default().trim();
+        let end = instruction.char_indices().nth(160).map_or(instruction.len(), |(at, _)| at);
+        Refusal {
+            function: format!("{:#}", rustc_demangle::demangle(symbol)),
+            instruction: instruction[..end].to_string(),
+            reason: self.reason,
+            hint: self.hint,
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! What each construct becomes, and that libNVVM and ptxas accept it.
