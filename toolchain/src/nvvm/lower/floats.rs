@@ -2,7 +2,7 @@
 
 use super::builder::{Builder, constant, float};
 use super::libdevice;
-use crate::nvvm::model::{Type, Typed};
+use crate::nvvm::model::{Type, Typed, Value};
 use crate::nvvm::refusal::Unknown;
 
 /// The number below one half, in either type: added before cutting off, it rounds to the nearest integer, ties away.
@@ -35,16 +35,15 @@ pub(super) fn remainder(builder: &mut Builder<'_>, a: &Typed, b: &Typed) -> Resu
     })
 }
 
+/// What is done to scalars of one type.
+type Scalar<'f> = dyn Fn(&mut Builder<'_>, &[Typed]) -> Result<Typed, Unknown> + 'f;
+
 /// `f` of each element, in `float` where the elements are `half`: exact or rounded twice without harm for what it is used for.
-fn elementwise(
-    builder: &mut Builder<'_>,
-    arguments: &[Typed],
-    f: &dyn Fn(&mut Builder<'_>, &[Typed]) -> Result<Typed, Unknown>,
-) -> Result<Typed, Unknown> {
+fn elementwise(builder: &mut Builder<'_>, arguments: &[Typed], f: &Scalar<'_>) -> Result<Typed, Unknown> {
     let ty = arguments[0].ty.clone();
     match &ty {
         Type::Vector(count, _) => {
-            let mut result = Typed::new(ty.clone(), crate::nvvm::model::Value::Undef);
+            let mut result = Typed::new(ty.clone(), Value::Undef);
             for index in 0..*count {
                 let of: Vec<_> = arguments.iter().map(|argument| builder.extract(argument, index)).collect();
                 let element = elementwise(builder, &of, f)?;

@@ -132,9 +132,8 @@ impl<'a> Parser<'_, 'a> {
                 }
                 "align" => of.align = Some(if self.eat('(') { self.number_until(')')? } else { self.number()? }),
                 "captures" => {
-                    if self.parentheses()?.as_slice() == [Token::Word("none")] {
-                        of.words.push("nocapture".into());
-                    }
+                    let nothing = self.parentheses()?.as_slice() == [Token::Word("none")];
+                    of.words.extend(nothing.then(|| "nocapture".into()));
                 }
                 _ if self.peek() == Token::Punctuation('(') => drop(self.parentheses()?),
                 _ if OF_PARAMETERS.contains(&word) => of.words.push(word.to_string()),

@@ -67,7 +67,8 @@ impl<'a> Parser<'_, 'a> {
         while self.peek() == Token::Punctuation(',') {
             let Token::Metadata(name) = self.peek_at(1) else { return self.unexpected("metadata") };
             self.at += 2;
-            let Token::Metadata(node) = self.next() else { return self.unexpected("metadata") };
+            let Token::Metadata(node) = self.peek() else { return self.unexpected("metadata") };
+            self.at += 1;
             if node.is_empty() {
                 return self.unexpected("a node with a number");
             }

@@ -1,1 +1,0 @@
-//! What each construct becomes, and that libNVVM and ptxas accept it.
