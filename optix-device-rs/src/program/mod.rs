@@ -1,6 +1,20 @@
 //! Program contexts: what each kind of device program may ask, and nothing else (guide 13, table of legal calls).
 //!
 //! A context is zero-sized on the device and one pointer on the host. A program gets it by reference and can't keep it.
+//!
+//! | | [`RayGen`] | [`Intersection`] | [`AnyHit`] | [`ClosestHit`] | [`Miss`] | [`Exception`] | [`DirectCallable`] | [`ContinuationCallable`] |
+//! | --- | --- | --- | --- | --- | --- | --- | --- | --- |
+//! | launch index, launch parameters, handles, hit kinds | yes | yes | yes | yes | yes | yes | yes | yes |
+//! | throws, calls direct callables | yes | yes | yes | yes | yes | | yes | yes |
+//! | traces rays, calls continuation callables | yes | | | yes | yes | | | yes |
+//! | its ray: world space, interval, time, flags, mask | | yes | yes | yes | yes | | | |
+//! | its ray in object space | | yes | yes | | | | | |
+//! | its primitive: index, instance, transform list, spaces | | yes | yes | yes | | | | |
+//! | its hit: kind, face, attributes, barycentrics, vertices | | | yes | yes | | | | |
+//! | reports hits | | yes | | | | | | |
+//! | what was raised | | | | | | yes | | |
+//!
+//! A call from another kind of program does not compile. `docs/contracts.md` has the table by device function.
 
 mod call;
 pub use call::{CallsContinuation, CallsDirect};

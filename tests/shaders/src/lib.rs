@@ -2,6 +2,7 @@
 #![no_std]
 
 pub mod callables;
+pub mod queries;
 
 use optix_device_rs::prelude::*;
 use path_tracer_shaders::ball::{self, Ball, BallHit};
