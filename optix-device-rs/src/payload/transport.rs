@@ -93,6 +93,7 @@ impl<const WORDS: usize> Transport for Pointer<WORDS> {
         // SAFETY: the caller of trace stored an address, and its memory lives until trace returns.
         unsafe {
             let memory: *mut Memory<WORDS> = Words::load(part(&registers.0, 0, 2));
+            core::hint::assert_unchecked(memory.is_aligned());
             &mut (*memory).0
         }
     }
