@@ -216,11 +216,11 @@ impl<F, K> Callables<F, K> {
     /// Ends the program if `index >= len`.
     #[inline(always)]
     pub fn get(self, index: u32) -> Callable<F, K> {
+        // As for views: the device has no use for the message.
+        #[cfg(target_arch = "nvptx64")]
+        crate::machine::check(u64::from(index), u64::from(self.len));
+        #[cfg(not(target_arch = "nvptx64"))]
         if index >= self.len {
-            // As for views: the device has no use for the message.
-            #[cfg(target_arch = "nvptx64")]
-            crate::machine::trap();
-            #[cfg(not(target_arch = "nvptx64"))]
             out_of_range(index, self.len);
         }
         Callable { index: self.first + index, types: PhantomData }

@@ -248,7 +248,7 @@ fn tables_end() {
     machine.pipeline = Pipeline::for_scene(&machine.scene).build().unwrap();
     let frame = machine.frame(0, NOBODY).0;
     let result = machine.pipeline.launch(&frame, [1, 1, 1]).and_then(|launch| launch.wait());
-    says(result, &["__raygen__", "remainder with a divisor of zero"]);
+    says(result, &["__raygen__", "callable 0 is out of range: the table has 0"]);
 }
 
 /// The error's text, which is to be one that names what is wrong.

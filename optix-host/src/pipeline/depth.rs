@@ -261,4 +261,90 @@ mod tests {
         assert_eq!(path(&[&[1], &[0]], &[0]), None);
         assert_eq!(path(&[&[1], &[1]], &[]), Some(0));
     }
+
+    /// Depths of a pipeline with one ray type, whose programs are these: when each runs, and its code.
+    fn depths(programs: &[(Place, &'static str, &str)], stated: [Option<u32>; 2]) -> Result<Depths, String> {
+        use optix_device_rs::callable::{Continuation, Direct};
+        use optix_device_rs::host::{
+            CallableDescription, Entry, ExceptionsDescription, Frame, ParamsDescription, PayloadDescription,
+            RayDescription,
+        };
+        unsafe fn nothing(_: &Frame<'_>) -> optix_device_rs::ray::Decision {
+            unreachable!("not called")
+        }
+        const ENTRY: Entry = Entry { name: "", function: "", run: nothing };
+        const TEST: PipelineDescription = PipelineDescription {
+            name: "Test",
+            params: ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[], fingerprint: 0 },
+            raygen: &[],
+            rays: &[RayDescription { payload: PayloadDescription::of::<Bounce>(), miss: None }],
+            hitgroups: &[],
+            callables: &[
+                CallableDescription::of::<(), fn(), Direct>(ENTRY),
+                CallableDescription::of::<(), fn(), Continuation>(ENTRY),
+            ],
+            exceptions: ExceptionsDescription { throws: None, variants: &[], program: None },
+            trace_depth: None,
+            callable_depth: None,
+        };
+        let description = PipelineDescription { trace_depth: stated[0], callable_depth: stated[1], ..TEST };
+        let mut text = String::new();
+        for (_, name, code) in programs {
+            let head = if name.contains("callable") { "func" } else { "entry" };
+            text.push_str(&format!(".visible .{head} {name}()\n{{\n{code}\n}}\n"));
+        }
+        let entries: Vec<_> = programs.iter().map(|&(place, name, _)| Reached { name, place }).collect();
+        Depths::new(&description, &entries, Some(&text), &mut |_, _, _| {}).map_err(|error| error.to_string())
+    }
+
+    #[derive(optix_device_rs::prelude::Payload)]
+    pub struct Bounce {
+        #[payload(write(caller), read(caller))]
+        pub left: u32,
+    }
+
+    const DIRECT: &str = "call (%rd1), _optix_call_direct_callable, (%r1);";
+    const CONTINUATION: &str = "call (%rd1), _optix_call_continuation_callable, (%r1);";
+    const TRACE: &str = "call (%r1), _optix_trace_typed_32, (1, %rd1);";
+
+    #[test]
+    fn callables_count_where_they_are_called() {
+        let raygen = (Place::RayGen, "__raygen__a", CONTINUATION);
+        let continuation = (Place::Continuation, "__continuation_callable__c", "");
+        let found = depths(&[raygen, continuation], [None; 2]).unwrap();
+        assert_eq!((found.trace, found.continuation, found.direct_from_state), (0, 1, 0));
+        assert!(!found.trace_is_a_promise);
+
+        let anyhit = (Place::Traversal(0), "__anyhit__b", DIRECT);
+        let direct = (Place::Direct, "__direct_callable__d", "");
+        let found = depths(&[raygen, continuation, anyhit, direct], [None; 2]).unwrap();
+        assert_eq!((found.direct_from_traversal, found.direct_from_state), (1, 0));
+        assert_eq!(found.callables(), 2);
+    }
+
+    #[test]
+    fn callables_that_call_each_other_need_a_depth() {
+        let raygen = (Place::RayGen, "__raygen__a", DIRECT);
+        let direct = (Place::Direct, "__direct_callable__d", DIRECT);
+        let error = depths(&[raygen, direct], [None; 2]).unwrap_err();
+        assert!(error.contains("direct callables call each other") && error.contains("callable_depth: N"), "{error}");
+        assert_eq!(depths(&[raygen, direct], [None, Some(3)]).unwrap().direct_from_state, 3);
+        // What is stated counts only where callables nest.
+        let leaf = (Place::Direct, "__direct_callable__d", "");
+        assert_eq!(depths(&[raygen, leaf], [None, Some(3)]).unwrap().direct_from_state, 1);
+    }
+
+    #[test]
+    fn continuation_callables_trace_for_their_callers() {
+        let raygen = (Place::RayGen, "__raygen__a", CONTINUATION);
+        let continuation = (Place::Continuation, "__continuation_callable__c", TRACE);
+        let miss = (Place::Shading(0), "__miss__b", "");
+        assert_eq!(depths(&[raygen, continuation, miss], [None; 2]).unwrap().trace, 1);
+        // The miss program calls what traces the ray that it ends.
+        let again = (Place::Shading(0), "__miss__b", CONTINUATION);
+        let error = depths(&[raygen, continuation, again], [None; 2]).unwrap_err();
+        assert!(error.contains("recursively") && error.contains("trace_depth: N"), "{error}");
+        let found = depths(&[raygen, continuation, again], [Some(5), None]).unwrap();
+        assert_eq!((found.trace, found.trace_is_a_promise), (5, true));
+    }
 }

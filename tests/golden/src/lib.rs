@@ -2,19 +2,25 @@
 
 use std::collections::HashMap;
 
-/// The entries of a PTX text: name and body, in the order of the text.
+/// The entries of a PTX text, callables included: name and body, in the order of the text.
 ///
 /// ```
-/// let ptx = ".visible .entry __raygen__a()\n{\n\tret;\n\n}\n";
-/// assert_eq!(optix_golden_tests::entries(ptx), [("__raygen__a", "\n\tret;\n")]);
+/// let ptx = ".visible .entry __raygen__a()\n{\n\tret;\n\n}\n\
+///            .visible .func  (.param .b32 func_retval0) __direct_callable__b(\n\t.param .b32 a\n)\n{\n\texit;\n\n}\n";
+/// let expected = [("__raygen__a", "\n\tret;\n"), ("__direct_callable__b", "\n\texit;\n")];
+/// assert_eq!(optix_golden_tests::entries(ptx), expected);
 /// ```
 pub fn entries(ptx: &str) -> Vec<(&str, &str)> {
-    let entry = |text: &'_ str| -> Option<(usize, usize, usize)> {
-        let (name, open) = (text.find('(')?, text.find("\n{\n")?);
-        Some((name, open + 2, text.find("\n}")?))
+    let entry = |text: &'_ str| -> Option<(usize, usize, usize, usize)> {
+        let (open, close) = (text.find("\n{\n")?, text.find("\n}")?);
+        let name = text[..open].find("__")?;
+        Some((name, name + text[name..open].find('(')?, open + 2, close))
     };
-    let texts = ptx.split(".visible .entry ").skip(1);
-    texts.filter_map(|text| entry(text).map(|(name, begin, end)| (&text[..name], &text[begin..end]))).collect()
+    let is_entry = |text: &&str| text.starts_with("entry ") || text.starts_with("func ");
+    let texts = ptx.split(".visible .").skip(1).filter(is_entry);
+    texts
+        .filter_map(|text| entry(text).map(|(name, end, begin, close)| (&text[name..end], &text[begin..close])))
+        .collect()
 }
 
 /// The instructions and labels of a body in order, one per line. Registers and labels are numbered by their first
@@ -102,6 +108,11 @@ impl Names {
             result.push_str(&rest[..begin]);
             if word == params {
                 result.push_str("params");
+            } else if let Some((_, number)) = word.rsplit_once("_param_") {
+                result.push_str("param");
+                result.push_str(number);
+            } else if word.starts_with("prototype_") {
+                result.push_str(&self.of(word, "prototype"));
             } else if word.starts_with('$') {
                 result.push_str(&self.of(word, "L"));
             } else if word.starts_with('%') {

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 /// The programs, by the last part of the raw entry's name.
-const PROGRAMS: [&str; 11] = [
+const PROGRAMS: [&str; 12] = [
     "__raygen__index",
     "__raygen__words",
     "__raygen__bytes",
@@ -21,6 +21,7 @@ const PROGRAMS: [&str; 11] = [
     "__intersection__ball",
     "__closesthit__ball_shade",
     "__miss__sky",
+    "__direct_callable__blend",
 ];
 
 /// Those whose instructions are in one order too. The others may differ in the order of instructions that do not depend

@@ -144,9 +144,9 @@ pub fn call(rg: &RayGen<Calls>) {
     let (frame, index) = (rg.params(), rg.launch_index());
     maybe_throw!(rg, RAYGEN);
     let textures = frame.textures();
-    let colour = textures.get(index.x % textures.len()).call(rg, index.x as f32, index.xy());
+    let colour = textures.get(index.x.checked_rem(textures.len()).unwrap_or(0)).call(rg, index.x as f32, index.xy());
     let shaders = frame.shaders();
-    let value = shaders.get(index.x % shaders.len()).call(rg, colour, frame.bounces());
+    let value = shaders.get(index.x.checked_rem(shaders.len()).unwrap_or(0)).call(rg, colour, frame.bounces());
     frame.found().set(index.x, colour.extend(value).to_array());
 }
 

@@ -236,3 +236,18 @@ pub fn trace_5(call: &Trace, payload: [u32; 5]) -> [u32; 5] {
     };
     [p0, p1, p2, p3, p4]
 }
+
+#[inline(always)]
+pub fn direct_callable(index: u32) -> u64 {
+    let address: u64;
+    // SAFETY: the record is there.
+    unsafe {
+        asm!(
+            "call ({a}), _optix_call_direct_callable, ({i});",
+            a = out(reg64) address,
+            i = in(reg32) index,
+            options(nomem, nostack, preserves_flags)
+        )
+    };
+    address
+}

@@ -201,3 +201,27 @@ pub unsafe extern "ptx-kernel" fn __miss__sky() {
     let y = get_f32!("_optix_get_world_ray_direction_y");
     set_payload_0_to_2(light.map(|light| light * y));
 }
+
+#[repr(C)]
+struct Blend {
+    of: u32,
+    scale: f32,
+}
+
+#[repr(C)]
+pub struct Arguments([f32; 3], f32);
+
+#[repr(C)]
+pub struct Colour([f32; 3]);
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn __direct_callable__blend(Arguments(at, share): Arguments) -> Colour {
+    // SAFETY: this program's record.
+    let record = unsafe { &*record::<Blend>() };
+    // SAFETY: a callable with these arguments and this result.
+    let callee = unsafe {
+        core::mem::transmute::<*const (), extern "C" fn(Arguments) -> Colour>(direct_callable(record.of) as *const ())
+    };
+    let Colour(colour) = callee(Arguments(at.map(|x| x * record.scale), share));
+    Colour(colour.map(|channel| channel * share))
+}

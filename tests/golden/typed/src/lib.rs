@@ -73,6 +73,16 @@ pub struct Sky {
     pub light: Vec3,
 }
 
+/// A callable's record.
+#[derive(Clone, Copy, SbtRecord)]
+#[repr(C)]
+pub struct Blend {
+    /// Another callable.
+    pub of: Callable<fn(Vec3, f32) -> Vec3>,
+    /// A number.
+    pub scale: f32,
+}
+
 /// Four attribute words.
 #[derive(Clone, Copy, Attributes)]
 pub struct BallHit {
@@ -172,6 +182,12 @@ fn sky(ms: &Miss<Golden>, record: &Sky) -> RadianceFromMiss {
     RadianceFromMiss { light: record.light * ms.world_ray_direction().y }
 }
 
+/// Arguments, a result, a record, and a call of another callable.
+#[direct_callable]
+fn blend(dc: &DirectCallable<Golden>, record: &Blend, at: Vec3, share: f32) -> Vec3 {
+    record.of.call(dc, at * record.scale, share) * share
+}
+
 pipeline! {
     /// All of them.
     pub struct Golden {
@@ -183,5 +199,6 @@ pipeline! {
             Corners on Triangles => { Radiance { closesthit: corners } },
             Ball on Custom => { Radiance { intersection: ball, closesthit: ball_shade } },
         },
+        direct_callables: [blend],
     }
 }
