@@ -163,6 +163,20 @@ fn pictures_agree() {
     assert!(worst < 5.0, "a tile differs by {worst} standard errors");
 }
 
+/// The driver says which loads of a bound parameter became constants, or that it had the module in its cache.
+#[test]
+fn loads_of_bound_parameters_are_reported() {
+    let Some(optix) = devices::optix("loads_of_bound_parameters_are_reported") else { return };
+    let cornell = Cornell::new(&optix, &knot_in_place(), 1.0).unwrap();
+    // A number of bounces that no other test binds: the module is not in the cache the first time.
+    let settings = Settings { size: [16, 16], bounces: 37, seed: 1 };
+    let explanation = Render::new(&optix, &cornell, settings).unwrap().explain();
+    let said = explanation.device.iter().find(|line| line.starts_with("bound value max_bounces:"));
+    let said = said.expect("no line about the bound value");
+    println!("{said}");
+    assert!(!said.contains("found no load"), "{explanation}");
+}
+
 #[test]
 fn validation_mode_reports_nothing() {
     let Some(optix) = devices::optix_with("validation_mode_reports_nothing", &OptixOptions { validation: true }) else {
