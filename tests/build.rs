@@ -2,5 +2,6 @@
 
 fn main() {
     optix_toolchain::shaders("shaders");
+    optix_toolchain::shaders("maths");
     optix_toolchain::shaders("round-trip");
 }

@@ -34,8 +34,6 @@ instructions! {
     exp2 = Math::exp2;
     /// Logarithm of base 2: within 2^-22 of it for `x` from 1/2 to 2, relative error below 2^-22 elsewhere.
     log2 = Math::log2;
-    /// Hyperbolic tangent: relative error below 2^-11. `sm_75` and newer.
-    tanh = Math::tanh;
     /// 1/x: within 1 ulp.
     recip = f32::recip;
     /// Square root: relative error below 2^-23.
@@ -66,6 +64,12 @@ pub fn ln(x: f32) -> f32 {
 #[inline(always)]
 pub fn log10(x: f32) -> f32 {
     log2(x) * core::f32::consts::LOG10_2
+}
+
+/// Hyperbolic tangent: within 2^-20 of it. (`tanh.approx` is within 2^-11, and no part of PTX 6.3.)
+#[inline(always)]
+pub fn tanh(x: f32) -> f32 {
+    1.0 - 2.0 * recip(exp(x + x) + 1.0)
 }
 
 /// `x` to the power `y`, for `x >= 0`: the relative error grows with `|y log2(x)|`, by about 2^-22 of it.
