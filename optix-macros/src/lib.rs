@@ -107,9 +107,9 @@ pub fn derive_payload(input: TokenStream) -> TokenStream {
 /// derive includes [`DeviceData`](macro@DeviceData).
 ///
 /// # Views and twins
-/// A field is a view if its type's name is `Slice`, `SliceMut`, `SliceMut2d` or `Traversable`, or an array of these. A view
-/// under another name, and a struct with views that derives `DeviceData`, needs `#[view]` on the field; without it the
-/// field does not compile. A struct with views has a twin, `LambertHost`, with the same fields and visibilities; one
+/// A field is a view if its type's name is `Slice`, `SliceMut`, `SliceMut2d`, `Traversable`, `Callable` or `Callables`, or an
+/// array of these. A view under another name, and a struct with views that derives `DeviceData`, needs `#[view]` on the
+/// field; without it the field does not compile. A struct with views has a twin, `LambertHost`, with the same fields and visibilities; one
 /// without is its own. In a device build the twin's name stands for a type without values, so that `pub use
 /// materials::LambertHost;` needs no `#[cfg]`.
 #[proc_macro_derive(SbtRecord, attributes(view, optix))]

@@ -38,7 +38,7 @@ impl<P: Pipeline> Exception<P> {
     #[inline(always)]
     pub fn raised(&self) -> Raised<P::Exception> {
         let details = self.cx.exception_details(<P::Exception as UserException>::DETAILS);
-        // SAFETY: the pipeline's programs throw nothing but its exception type ([`Throws`](crate::pipeline::Throws)).
+        // SAFETY: the pipeline's programs throw nothing but its exception type (`Throws`).
         unsafe { Raised::decode(self.cx.exception_code(), part(&details.0, 0, MAX_DETAILS)) }
     }
 }

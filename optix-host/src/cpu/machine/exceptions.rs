@@ -27,13 +27,13 @@ pub(super) struct Unhandled(Mutex<Vec<([u32; 3], String)>>);
 impl Unhandled {
     pub fn add(&self, job: &Job<'_>, index: UVec3, program: &str, exception: &ExceptionState) {
         let [x, y, z] = index.to_array();
-        let text = format!("{} at launch index {:?}, by {program}", describe(job, exception), [x, y, z]);
-        let text = match &exception.line {
-            Some(line) => format!("{text} ({})", line.to_string_lossy()),
-            None => text,
-        };
         let mut reports = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let at = reports.partition_point(|(other, _)| *other < [z, y, x]);
+        if at == REPORTED {
+            return;
+        }
+        let line = exception.line.as_ref().map_or(String::new(), |line| format!(" ({})", line.to_string_lossy()));
+        let text = format!("{} at launch index {:?}, by {program}{line}", describe(job, exception), [x, y, z]);
         reports.insert(at, ([z, y, x], text));
         reports.truncate(REPORTED);
     }
