@@ -12,7 +12,7 @@ const EXP2: [f32; 5] = [0.240_226_48, 0.055_503_607, 0.009_618_509, 0.001_339_11
 /// Adding it rounds to an integer, which is then in the low bits.
 const ROUND: f32 = 12_582_912.0;
 
-/// e^x. Error below 0.9 ulp, found by trying every `f32`.
+/// e^x. Error below 1 ulp (docs/maths.md).
 #[inline(always)]
 pub fn expf(x: f32) -> f32 {
     scaled_exp(x, 0)
@@ -29,7 +29,7 @@ pub(super) fn scaled_exp(x: f32, scale: i32) -> f32 {
     times_power_of_2(p, integer(rounded) + scale)
 }
 
-/// 2^x. Error below 0.9 ulp, found by trying every `f32`.
+/// 2^x. Error below 0.9 ulp (docs/maths.md).
 #[inline(always)]
 pub fn exp2f(x: f32) -> f32 {
     exp2_of_sum(clamped(x, 160.0), 0.0)
@@ -44,7 +44,7 @@ pub(super) fn exp2_of_sum(x: f32, tail: f32) -> f32 {
     times_power_of_2(p, integer(rounded))
 }
 
-/// 10^x. Error below 1 ulp.
+/// 10^x. Error below 1.2 ulp.
 #[inline(always)]
 pub fn exp10f(x: f32) -> f32 {
     // lg 2 as ln 2 above, and ln 10 in two parts.

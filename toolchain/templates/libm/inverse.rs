@@ -20,7 +20,7 @@ const ATAN: [f32; 9] = [
 ];
 const ASIN: [f32; 6] = [0.166_666_6, 0.075_005_21, 0.044_513_587, 0.031_836_998, 0.014_323_436, 0.037_684_295];
 
-/// Arctangent. Error below 1.5 ulp, found by trying every `f32`.
+/// Arctangent. Error below 1.5 ulp (docs/maths.md).
 #[inline(always)]
 pub fn atanf(x: f32) -> f32 {
     let a = x.abs();
@@ -29,7 +29,7 @@ pub fn atanf(x: f32) -> f32 {
     (if is_steep { (HALF_PI[0] - r) + HALF_PI[1] } else { r }).copysign(x)
 }
 
-/// The angle of the vector `(x, y)` from the x axis. Error below 2 ulp, in a billion random and all special cases.
+/// The angle of the vector `(x, y)` from the x axis. Error below 2 ulp (docs/maths.md).
 #[inline(always)]
 pub fn atan2f(y: f32, x: f32) -> f32 {
     let (a, b) = (x.abs(), y.abs());
@@ -62,7 +62,7 @@ fn atan_below_1(r: f32) -> f32 {
     fmaf(p, z * r, r)
 }
 
-/// Arcsine. Error below 1.5 ulp, found by trying every `f32`.
+/// Arcsine. Error below 1.9 ulp (docs/maths.md).
 #[inline(always)]
 pub fn asinf(x: f32) -> f32 {
     let a = x.abs();
@@ -75,7 +75,7 @@ pub fn asinf(x: f32) -> f32 {
     angle.copysign(x)
 }
 
-/// Arccosine. Error below 1.5 ulp, found by trying every `f32`.
+/// Arccosine. Error below 1.5 ulp (docs/maths.md).
 #[inline(always)]
 pub fn acosf(x: f32) -> f32 {
     let a = x.abs();
