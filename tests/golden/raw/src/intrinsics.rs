@@ -52,6 +52,20 @@ macro_rules! get_f32 {
 
 pub(crate) use {get_f32, get_u32, param};
 
+/// Ends the launch unless `index < len`.
+#[inline(always)]
+pub fn check(index: u64, len: u64) {
+    // SAFETY: ends the launch.
+    unsafe {
+        asm!(
+            "{{ .reg .pred p; setp.ge.u64 p, {index}, {len}; @p trap; }}",
+            index = in(reg64) index,
+            len = in(reg64) len,
+            options(nomem, nostack, preserves_flags)
+        )
+    }
+}
+
 #[inline(always)]
 pub fn trap() -> ! {
     // SAFETY: ends the launch.

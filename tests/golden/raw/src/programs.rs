@@ -24,12 +24,9 @@ impl Film {
 
     #[inline(always)]
     fn set(self, index: u32, value: [f32; 4]) {
-        if u64::from(index) < self.1 {
-            // SAFETY: inside of the film.
-            unsafe { (self.0 as *mut Float4).add(index as usize).write(Float4(value)) }
-        } else {
-            trap()
-        }
+        check(u64::from(index), self.1);
+        // SAFETY: inside of the film.
+        unsafe { (self.0 as *mut Float4).add(index as usize).write(Float4(value)) }
     }
 }
 
