@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
 use optix_toolchain::inspect::ptxas::Ptxas;
+use optix_toolchain::nvvm::{self, Library, PtxVersion};
 use optix_toolchain::{Candidate, DEFAULT_ARCH, DeviceCompiler, MINIMUM, Rejected, Why};
 
 use super::libraries::{self, Driver};
@@ -118,17 +119,30 @@ fn optix() {
 }
 
 fn nvvm() {
-    let found = libraries::nvvm();
-    for nvvm in &found {
-        let (major, minor) = nvvm.ir;
-        report("libNVVM", Ok(format!("{}, NVVM IR {major}.{minor}", nvvm.path.display())), "");
+    let driver = PtxVersion::of_driver();
+    let used = nvvm::choose().map(|library| library.path);
+    let found = nvvm::libraries();
+    for path in &found {
+        let read = || -> Result<String, nvvm::Failure> {
+            let library = Library::open(path)?;
+            let ((major, minor), ptx) = (library.ir_version()?, library.ptx_version()?);
+            let fits = match driver {
+                Some(driver) if ptx > driver => format!("newer than the driver's {driver}, so it is passed over"),
+                Some(driver) => format!("the driver takes up to {driver}"),
+                None => "no driver to ask".into(),
+            };
+            let used = if used.as_ref() == Ok(path) { ", used" } else { "" };
+            Ok(format!("{}, NVVM IR {major}.{minor}, writes PTX {ptx}: {fits}{used}", path.display()))
+        };
+        match read() {
+            Ok(text) => report("libNVVM", Ok(text), ""),
+            Err(failure) => {
+                report("libNVVM", Err(format!("{}: {failure}", path.display())), "`cargo optix setup --nvvm`")
+            }
+        }
     }
     if found.is_empty() {
-        report(
-            "libNVVM",
-            Err(String::new()),
-            "`pip install nvidia-nvvm==13.0.*` (its version must not be newer than the driver's CUDA)",
-        );
+        report("libNVVM", Err(String::new()), "`cargo optix setup --nvvm`");
     }
 }
 

@@ -1,8 +1,6 @@
 //! NVIDIA's shared libraries: finding them and asking for their versions.
 
 use std::ffi::{CStr, c_char, c_int, c_uint, c_void};
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use libloading::{AsFilename, Library, Symbol};
 
@@ -91,69 +89,4 @@ pub(super) fn optix_accepts_abi() -> Result<bool, String> {
         query(OPTIX_ABI, 0, std::ptr::null_mut(), std::ptr::null(), table.as_mut_ptr().cast(), size_of_val(&table))
     };
     Ok(result == 0)
-}
-
-/// A libNVVM on this machine.
-pub(super) struct Nvvm {
-    /// The file itself, whose path tells the version of the toolkit; links do not.
-    pub path: PathBuf,
-    /// The NVVM IR it reads.
-    pub ir: (c_int, c_int),
-}
-
-/// Every libNVVM in the places where CUDA toolkits, drivers and Python wheels put it.
-pub(super) fn nvvm() -> Vec<Nvvm> {
-    let mut files: Vec<PathBuf> = nvvm_paths().iter().filter_map(|path| path.canonicalize().ok()).collect();
-    files.sort();
-    files.dedup();
-    let open = |path: PathBuf| nvvm_ir(&path).ok().map(|ir| Nvvm { path, ir });
-    files.into_iter().filter_map(open).collect()
-}
-
-fn nvvm_ir(path: &Path) -> Result<(c_int, c_int), String> {
-    type Version = unsafe extern "C" fn(*mut c_int, *mut c_int, *mut c_int, *mut c_int) -> c_int;
-    let library = open(path)?;
-    let (mut major, mut minor, mut debug) = (0, 0, (0, 0));
-    // SAFETY: this is nvvmIRVersion's type, and the pointers are to live integers.
-    unsafe {
-        let version = function::<Version>(&library, "nvvmIRVersion")?;
-        version(&mut major, &mut minor, &mut debug.0, &mut debug.1);
-    }
-    Ok((major, minor))
-}
-
-fn nvvm_paths() -> Vec<PathBuf> {
-    let mut folders = Vec::new();
-    for name in ["CUDA_HOME", "CUDA_PATH", "CUDA_ROOT"] {
-        folders.extend(std::env::var_os(name).map(|root| PathBuf::from(root).join("nvvm/lib64")));
-    }
-    folders.extend(list(Path::new("/usr/local"), "cuda").into_iter().map(|root| root.join("nvvm/lib64")));
-    folders.push("/opt/cuda/nvvm/lib64".into());
-    // The driver has one too, under a name of its own.
-    folders.extend(["/usr/lib/x86_64-linux-gnu", "/usr/lib64", "/usr/lib/aarch64-linux-gnu"].map(PathBuf::from));
-    folders.extend(std::env::var_os("LD_LIBRARY_PATH").iter().flat_map(std::env::split_paths));
-    for packages in python_packages() {
-        let nvidia = packages.join("nvidia");
-        folders.push(nvidia.join("cuda_nvcc/nvvm/lib64"));
-        folders.extend(list(&nvidia, "cu").into_iter().flat_map(|cu| [cu.join("lib"), cu.join("nvvm/lib64")]));
-    }
-    let libraries = folders.iter().flat_map(|dir| ["libnvvm.so", "libnvidia-nvvm.so"].map(|name| list(dir, name)));
-    libraries.flatten().collect()
-}
-
-/// Where the Python in use has its packages.
-fn python_packages() -> Vec<PathBuf> {
-    let script = "import site; print('\\n'.join(site.getsitepackages() + [site.getusersitepackages()]))";
-    let output = Command::new("python3").args(["-c", script]).output();
-    let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
-    text.lines().map(PathBuf::from).collect()
-}
-
-/// The entries of a folder whose names start with `prefix`, in order.
-fn list(dir: &Path, prefix: &str) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(dir).map(|entries| entries.flatten().collect()).unwrap_or_else(|_| Vec::new());
-    let matching = entries.iter().filter(|entry| entry.file_name().to_string_lossy().starts_with(prefix));
-    let mut paths: Vec<PathBuf> = matching.map(|entry| entry.path()).collect();
-    paths.sort();
-    paths
 }

@@ -14,6 +14,7 @@ mod options;
 mod setup;
 mod test;
 mod verify;
+mod wheels;
 
 use std::fmt;
 use std::path::PathBuf;
@@ -34,7 +35,11 @@ enum Action {
     /// Say what this machine can do, and how to get what is missing. Exit code 0 if it can compile shaders.
     Doctor,
     /// Install a device compiler, if there is none.
-    Setup,
+    Setup {
+        /// Also install libNVVM and ptxas, in the version that the driver here takes, into the user's cache folder.
+        #[arg(long)]
+        nvvm: bool,
+    },
     /// Compile shader crates to `target/optix/ptx/CRATE.ptx`.
     ///
     /// Without --crate, every package of the workspace that has `[package.metadata.optix] shaders = true`.
@@ -89,7 +94,9 @@ pub(crate) fn main() -> ExitCode {
     }
     let outcome = match Arguments::parse_from(args).command {
         Action::Doctor => doctor::run(),
-        Action::Setup => setup::run().map(|_| ExitCode::SUCCESS),
+        Action::Setup { nvvm } => {
+            setup::run().and_then(|_| if nvvm { wheels::install() } else { Ok(()) }).map(|()| ExitCode::SUCCESS)
+        }
         Action::Build { arch, options } => build::run(&arch, &options),
         Action::Verify { arch, options, allowed, json } => verify::run(&verify::How { arch, options, allowed, json }),
         Action::Inspect(how) => inspect::run(&how),

@@ -88,7 +88,7 @@ fn rustup() -> Result<(), String> {
 }
 
 /// Runs a command after saying so, its output passing through.
-fn show(command: &mut Command) -> Result<(), String> {
+pub(super) fn show(command: &mut Command) -> Result<(), String> {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
     let line = words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ");
     say!("running: {line}");

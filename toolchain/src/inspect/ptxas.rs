@@ -16,6 +16,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::error::{Doing, Error};
+use crate::nvvm;
 use crate::ptx::body::{self, Instruction, Statement, operands};
 use crate::ptx::calls::{demangled, parts};
 use crate::util;
@@ -46,9 +47,10 @@ pub struct Ptxas {
 
 impl Ptxas {
     /// Where to get it.
-    pub const MISSING: &str = "it is in the CUDA toolkit, and in `pip install nvidia-cuda-nvcc`";
+    pub const MISSING: &str = "it is in the CUDA toolkit, and `cargo optix setup --nvvm` installs it";
 
-    /// The one that `OPTIX_PTXAS` names, or in `PATH`, a CUDA toolkit, or the wheel `nvidia-cuda-nvcc`.
+    /// The one that `OPTIX_PTXAS` names, or in `PATH`, a CUDA toolkit, what `cargo optix setup --nvvm`
+    /// installed, or the wheel `nvidia-cuda-nvcc`.
     pub fn find() -> Option<Self> {
         if let Some(chosen) = std::env::var_os("OPTIX_PTXAS").filter(|chosen| !chosen.is_empty()) {
             return Self::at(chosen);
@@ -57,7 +59,8 @@ impl Ptxas {
         let roots = roots.chain(["/usr/local/cuda".into(), "/opt/cuda".into()]);
         let toolkits = roots.map(|root| root.join("bin/ptxas").into_os_string());
         let found = std::iter::once(OsString::from("ptxas")).chain(toolkits).find_map(Self::at);
-        found.or_else(|| wheels().into_iter().find_map(|path| Self::at(path.into_os_string())))
+        let cached = || nvvm::cached("bin/ptxas").into_iter().find_map(|path| Self::at(path.into_os_string()));
+        found.or_else(cached).or_else(|| wheels().into_iter().find_map(|path| Self::at(path.into_os_string())))
     }
 
     fn at(program: OsString) -> Option<Self> {

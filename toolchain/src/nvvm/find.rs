@@ -43,16 +43,29 @@ pub fn cache() -> Option<PathBuf> {
     Some(cache?.join("cargo-optix"))
 }
 
+/// The files `path` in what `cargo optix setup --nvvm` has installed, those of the newest CUDA last.
+#[cfg(feature = "cli")]
+pub(crate) fn cached(path: &str) -> Vec<PathBuf> {
+    let roots = cached_packages().into_iter().flat_map(|packages| roots(&packages));
+    roots.map(|root| root.join(path)).filter(|path| path.exists()).collect()
+}
+
+/// The folders of packages in the cache.
+fn cached_packages() -> Vec<PathBuf> {
+    cache().map(|cache| list(&cache, "nvidia-nvvm")).unwrap_or_default()
+}
+
+/// What a folder of Python packages has in place of a CUDA toolkit: `nvidia/cu13`, and `nvidia/cuda_nvcc` before.
+fn roots(packages: &Path) -> Vec<PathBuf> {
+    list(&packages.join("nvidia"), "cu")
+}
+
 fn folders() -> Vec<PathBuf> {
     let mut folders = Vec::new();
     let wheels = |folders: &mut Vec<PathBuf>, packages: &Path| {
-        let nvidia = packages.join("nvidia");
-        folders.push(nvidia.join("cuda_nvcc/nvvm/lib64"));
-        folders.extend(list(&nvidia, "cu").into_iter().flat_map(|cu| [cu.join("lib"), cu.join("nvvm/lib64")]));
+        folders.extend(roots(packages).iter().flat_map(|root| [root.join("lib"), root.join("nvvm/lib64")]));
     };
-    if let Some(cache) = cache() {
-        list(&cache, "nvidia-nvvm").iter().for_each(|wheel| wheels(&mut folders, wheel));
-    }
+    cached_packages().iter().for_each(|packages| wheels(&mut folders, packages));
     for name in ["CUDA_HOME", "CUDA_PATH", "CUDA_ROOT"] {
         folders.extend(std::env::var_os(name).map(|root| PathBuf::from(root).join("nvvm/lib64")));
     }

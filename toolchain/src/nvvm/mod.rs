@@ -25,6 +25,8 @@ mod refusal;
 mod tests;
 
 pub use driver::{PtxVersion, choose};
+#[cfg(feature = "cli")]
+pub(crate) use find::cached;
 pub use find::{cache, libdevice, libraries};
 pub(crate) use generate::{options, ptx};
 pub use library::{Failure, Library};

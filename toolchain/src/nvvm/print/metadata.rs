@@ -1,4 +1,4 @@
-//! Metadata: which functions are kernels, the version of the format, and what instructions refer to.
+//! Metadata: which functions are kernels, the version of the format, loops, and what instructions refer to.
 
 use std::collections::BTreeSet;
 
@@ -25,8 +25,18 @@ impl Printer<'_> {
             self.say(format_args!("!{name} = {}", module.metadata[name]));
         }
 
-        let last = module.metadata.keys().filter_map(|name| name.parse::<u64>().ok()).max().unwrap_or(0);
-        let mut number = last + 1;
+        let mut number = self.node + 1;
+        // rustc has unrolled what was worth it. More would copy device functions, and each call of `trace` is a place where
+        // OptiX cuts a program in two.
+        if !self.loops.is_empty() {
+            let mut nodes: Vec<u64> = self.loops.values().copied().collect();
+            nodes.sort_unstable();
+            for node in nodes {
+                self.say(format_args!("!{node} = distinct !{{!{node}, !{number}}}"));
+            }
+            self.say(format_args!("!{number} = !{{!\"llvm.loop.unroll.disable\"}}"));
+            number += 1;
+        }
         let version = match self.dialect {
             Dialect::Llvm7 => "i32 2, i32 0",
             Dialect::Modern => "i32 2, i32 0, i32 3, i32 2",

@@ -5,7 +5,7 @@ mod metadata;
 mod types;
 mod values;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 
 use super::Dialect;
@@ -26,6 +26,9 @@ pub(super) fn module(module: &Module, dialect: Dialect, text: &str) -> Result<St
         out: String::new(),
         count: 0,
         line: 0,
+        node: module.metadata.keys().filter_map(|name| name.parse::<u64>().ok()).max().unwrap_or(0),
+        loops: HashMap::new(),
+        before: HashSet::new(),
     };
     printer.head().map_err(|unknown| unknown.at(text, usize::MAX, ""))?;
     for function in &module.functions {
@@ -46,6 +49,12 @@ struct Printer<'m> {
     count: usize,
     /// The line of the source that is being printed.
     line: usize,
+    /// The number of metadata that was given last.
+    node: u64,
+    /// The metadata of each loop, by function and first block.
+    loops: HashMap<(&'m str, &'m str), u64>,
+    /// The blocks of the function so far.
+    before: HashSet<&'m str>,
 }
 
 type Printed<T = String> = Result<T, Unknown>;
@@ -126,7 +135,9 @@ impl<'m> Printer<'m> {
             return Ok(());
         }
         self.say(format_args!("{line} {{"));
+        self.before.clear();
         for (at, block) in function.blocks.iter().enumerate() {
+            self.before.insert(&block.name);
             self.say(format_args!("{}:", values::local(&block.name).trim_start_matches('%')));
             if at == 0 {
                 for copy in copies.drain(..) {
@@ -135,7 +146,7 @@ impl<'m> Printer<'m> {
             }
             for instruction in &block.instructions {
                 self.line = instruction.line;
-                self.instruction(instruction)?;
+                self.instruction(instruction, &function.name)?;
             }
         }
         self.say("}");
@@ -185,13 +196,21 @@ impl<'m> Printer<'m> {
         words.map(|word| format!(" {word}")).collect()
     }
 
-    fn instruction(&mut self, instruction: &Instruction) -> Printed<()> {
+    fn instruction(&mut self, instruction: &'m Instruction, function: &'m str) -> Printed<()> {
         let result = instruction.result.as_deref().map(values::local);
         let mut text = self.op(&instruction.op)?;
         if matches!(instruction.op, Op::Load { .. } | Op::Store { .. }) {
             for (name, node) in instruction.metadata.iter().filter(|(name, _)| name != "noundef") {
                 let _ = write!(text, ", !{name} {node}");
             }
+        }
+        if let Op::Jump(_) | Op::Branch { .. } = &instruction.op
+            && let Some(first) = instruction.op.successors().into_iter().find(|to| self.before.contains(to))
+        {
+            let node = self.node + 1;
+            let node = *self.loops.entry((function, first)).or_insert(node);
+            self.node = self.node.max(node);
+            let _ = write!(text, ", !llvm.loop !{node}");
         }
         match result {
             Some(result) => self.say(format_args!("  {result} = {text}")),

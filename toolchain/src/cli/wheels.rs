@@ -1,0 +1,52 @@
+//! NVIDIA's wheels: libNVVM and ptxas, by `cargo optix setup --nvvm`.
+
+use std::process::Command;
+
+use optix_toolchain::nvvm;
+
+use super::libraries::Driver;
+use super::{Failure, setup};
+
+/// The CUDA whose wheels are taken where there is no driver: the oldest that has a wheel of libNVVM alone.
+const WITHOUT_DRIVER: (i32, i32) = (13, 0);
+
+/// Installs them into a folder of our own; nothing of the user's Python is touched.
+pub(super) fn install() -> Result<(), Failure> {
+    let cuda = Driver::query().map_or(WITHOUT_DRIVER, |driver| driver.cuda);
+    let cache = nvvm::cache().ok_or_else(|| Failure("no HOME, so no cache folder; set XDG_CACHE_HOME".into()))?;
+    let folder = cache.join(format!("nvidia-nvvm-{}.{}", cuda.0, cuda.1));
+    let packages = packages(cuda).ok_or_else(|| {
+        Failure(format!("the driver here is for CUDA {}.{}; libNVVM's wheels begin with 12.0", cuda.0, cuda.1))
+    })?;
+    let mut pip = Command::new("python3");
+    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--upgrade", "--target"]);
+    setup::show(pip.arg(&folder).args(&packages)).map_err(|reason| {
+        Failure(format!("{reason}; it takes python3 with pip (`apt-get install python3-pip`) and a way to pypi.org"))
+    })?;
+    let library = nvvm::choose().map_err(|reason| Failure(format!("no libNVVM can be used: {reason}")))?;
+    say!("libNVVM: {}", library.path.display());
+    Ok(())
+}
+
+/// The newest packages that the driver of that CUDA takes.
+fn packages((major, minor): (i32, i32)) -> Option<Vec<String>> {
+    let below = format!("<{major}.{}", minor + 1);
+    match major {
+        ..12 => None,
+        // In one package then.
+        12 => Some(vec![format!("nvidia-cuda-nvcc-cu12{below}")]),
+        _ => Some(["nvidia-nvvm", "nvidia-cuda-nvcc"].map(|name| format!("{name}{below}")).to_vec()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packages_are_no_newer_than_the_driver() {
+        assert_eq!(packages((13, 0)), Some(vec!["nvidia-nvvm<13.1".into(), "nvidia-cuda-nvcc<13.1".into()]));
+        assert_eq!(packages((12, 8)), Some(vec!["nvidia-cuda-nvcc-cu12<12.9".into()]));
+        assert_eq!(packages((11, 8)), None);
+    }
+}
