@@ -58,13 +58,23 @@ pub unsafe trait UserException: Copy + 'static {
     const DETAILS: usize;
     /// Code and name of each variant.
     const VARIANTS: &'static [(u32, &'static str)];
-    /// Its code; its details go to `details`, which are [`MAX_DETAILS`] long.
-    fn encode(self, details: &mut [u32]) -> u32;
+    /// Throws it: its code, and its details in the first of [`MAX_DETAILS`] words.
+    #[doc(hidden)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
+    fn throw<T: Thrower>(self, thrower: T) -> !;
     /// The exception with this code and these details; none if no variant has the code.
     ///
     /// # Safety
-    /// Where a variant has the code, its details were stored by [`UserException::encode`].
+    /// Where a variant has the code, its details were stored by [`UserException::throw`].
     unsafe fn decode(code: u32, details: &[u32]) -> Option<Self>;
+}
+
+/// What ends a launch index. Each code is a constant of its own call, since OptiX takes no other.
+#[doc(hidden)]
+pub trait Thrower {
+    /// Throws `CODE`.
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
+    fn throw<const CODE: u32>(self, details: &[u32; MAX_DETAILS]) -> !;
 }
 
 /// What programs of pipeline `P` throw: [`Throws`], read from the exception's side, which names it in messages.
@@ -81,7 +91,7 @@ unsafe impl UserException for NoException {
     const NAME: &'static str = "NoException";
     const DETAILS: usize = 0;
     const VARIANTS: &'static [(u32, &'static str)] = &[];
-    fn encode(self, _: &mut [u32]) -> u32 {
+    fn throw<T: Thrower>(self, _: T) -> ! {
         match self {}
     }
     unsafe fn decode(_: u32, _: &[u32]) -> Option<Self> {

@@ -47,7 +47,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
 fn emit(ident: &Ident, krate: &Path, variants: &[&Variant]) -> TokenStream {
     let (allow, enum_name, copy) = (allow(), name(ident), copy_bound(ident));
     let mut consts = TokenStream::new();
-    let (mut names, mut encode, mut decode, mut most) = (Vec::new(), Vec::new(), Vec::new(), quote!(0));
+    let (mut names, mut throw, mut decode, mut most) = (Vec::new(), Vec::new(), Vec::new(), quote!(0));
     for (i, variant) in variants.iter().enumerate() {
         let (code, words) = (format_ident!("__CODE_{i}"), format_ident!("__WORDS_{i}"));
         // As rustc counts discriminants.
@@ -76,7 +76,7 @@ fn emit(ident: &Ident, krate: &Path, variants: &[&Variant]) -> TokenStream {
             patterns.push(quote!(#member: #value));
             let begin = end.clone();
             end = quote!(#end + #count);
-            stores.push(quote!(#store(#value, #krate::words::part_mut(__words, #begin, #end));));
+            stores.push(quote!(#store(#value, #krate::words::part_mut(__details, #begin, #end));));
             loads.push(quote!(#member: unsafe { #load(#krate::words::part(__words, #begin, #end)) }));
         }
         let (variant_ident, variant_name, span) = (&variant.ident, name(&variant.ident), place_of(&variant.ident));
@@ -89,7 +89,10 @@ fn emit(ident: &Ident, krate: &Path, variants: &[&Variant]) -> TokenStream {
             const _: () = #there::check::exception(#enum_name, #variant_name, #code, #words);
         });
         names.push(quote!((#code as ::core::primitive::u32, #variant_name)));
-        encode.push(quote!(Self::#variant_ident { #(#patterns),* } => { #(#stores)* #code as ::core::primitive::u32 }));
+        throw.push(quote!(Self::#variant_ident { #(#patterns),* } => {
+            #(#stores)*
+            #krate::exception::Thrower::throw::<{ #code as ::core::primitive::u32 }>(__thrower, __details)
+        }));
         decode.push(quote!(#code => ::core::option::Option::Some(Self::#variant_ident { #(#loads),* })));
         most = quote!(#krate::check::larger(#most, #words));
     }
@@ -104,9 +107,11 @@ fn emit(ident: &Ident, krate: &Path, variants: &[&Variant]) -> TokenStream {
                 const DETAILS: ::core::primitive::usize = #most;
                 const VARIANTS: &'static [(::core::primitive::u32, &'static ::core::primitive::str)] = &[#(#names),*];
                 #[inline(always)]
-                fn encode(self, __words: &mut [::core::primitive::u32]) -> ::core::primitive::u32 {
+                #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
+                fn throw<__T: #krate::exception::Thrower>(self, __thrower: __T) -> ! {
+                    let __details = &mut [0; #krate::exception::MAX_DETAILS];
                     match self {
-                        #(#encode)*
+                        #(#throw)*
                     }
                 }
                 #[inline(always)]

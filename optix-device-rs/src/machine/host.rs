@@ -2,6 +2,7 @@
 
 use super::TraceCall;
 use crate::callable::Signature;
+use crate::exception::MAX_DETAILS;
 use crate::host::{CallableCall, ExceptionState, Frame};
 use crate::params::LaunchParams;
 use crate::words::{MAX_PAYLOAD_WORDS, WordBuffer, Words, part, part_mut};
@@ -321,11 +322,10 @@ impl Cx {
         self.call::<F>(true, index, arguments)
     }
     #[track_caller]
-    pub fn throw(&self, code: u32, _count: usize, details: &WordBuffer) -> ! {
+    pub fn throw<const CODE: u32>(&self, _count: usize, details: &[u32; MAX_DETAILS]) -> ! {
         let at = Location::caller();
         let line = CString::new(std::format!("{}:{}", at.file(), at.line())).ok();
-        let details = core::array::from_fn(|i| details.0[i]);
-        self.frame().executor.throw(ExceptionState { code: code.cast_signed(), details, line })
+        self.frame().executor.throw(ExceptionState { code: CODE.cast_signed(), details: *details, line })
     }
     #[inline(always)]
     pub fn exception_code(&self) -> i32 {

@@ -1,18 +1,25 @@
 //! Throwing, and what an exception program is told (guide 13.14).
 
 use super::{AnyHit, ClosestHit, ContinuationCallable, DirectCallable, Exception, Intersection, Miss, RayGen};
-use crate::exception::{MAX_DETAILS, Raised, ThrownBy, UserException};
+use crate::exception::{MAX_DETAILS, Raised, Thrower, ThrownBy, UserException};
 use crate::machine::Cx;
 use crate::pipeline::Pipeline;
-use crate::words::{WordBuffer, part, part_mut};
+use crate::words::part;
 use core::ffi::CStr;
+use core::marker::PhantomData;
 
-#[inline(always)]
-#[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
-fn throw<E: UserException>(cx: &Cx, exception: E) -> ! {
-    let mut details = WordBuffer::ZERO;
-    let code = exception.encode(part_mut(&mut details.0, 0, MAX_DETAILS));
-    cx.throw(code, E::DETAILS, &details)
+/// Throws an `E` from a program.
+struct Throw<'c, E> {
+    cx: &'c Cx,
+    exception: PhantomData<E>,
+}
+
+impl<E: UserException> Thrower for Throw<'_, E> {
+    #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
+    fn throw<const CODE: u32>(self, details: &[u32; MAX_DETAILS]) -> ! {
+        self.cx.throw::<CODE>(E::DETAILS, details)
+    }
 }
 
 macro_rules! may_throw {
@@ -24,7 +31,7 @@ macro_rules! may_throw {
             #[inline(always)]
             #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
             pub fn throw<E: ThrownBy<P>>(&self, exception: E) -> ! {
-                throw(&self.cx, exception)
+                exception.throw(Throw::<E> { cx: &self.cx, exception: PhantomData })
             }
         }
     )*};

@@ -1,15 +1,19 @@
 //! Throwing, and what an exception program asks (guide 13.14).
 
 use super::Cx;
+use crate::exception::MAX_DETAILS;
 use crate::words::WordBuffer;
 use core::arch::asm;
 use core::ffi::{CStr, c_char};
 
 impl Cx {
     /// Ends the launch index with a user exception. `count` is a constant at every call.
+    ///
+    /// The code is in the text, so that calls with different codes are never joined into one: OptiX refuses a code that is
+    /// no constant.
     #[inline(always)]
-    pub fn throw(&self, code: u32, count: usize, details: &WordBuffer) -> ! {
-        let [d0, d1, d2, d3, d4, d5, d6, d7, ..] = details.0;
+    pub fn throw<const CODE: u32>(&self, count: usize, details: &[u32; MAX_DETAILS]) -> ! {
+        let [d0, d1, d2, d3, d4, d5, d6, d7] = *details;
         macro_rules! arm {
             ($count:expr, [$($used:ident)*] [$($unused:ident)*]) => {
                 if $count == count!($($used)*) {
@@ -17,11 +21,12 @@ impl Cx {
                     unsafe {
                         asm!(
                             concat!(
-                                "call _optix_throw_exception_", arm!(@n $($used)*), ", ({code}",
+                                "{{ .reg .b32 code; mov.b32 code, {code}; ",
+                                "call _optix_throw_exception_", arm!(@n $($used)*), ", (code",
                                 $(", {", stringify!($used), "}",)*
-                                ");"
+                                "); }}"
                             ),
-                            code = in(reg32) code,
+                            code = const CODE,
                             $($used = in(reg32) $used,)*
                             options(nostack, preserves_flags)
                         )

@@ -167,6 +167,8 @@ impl Layout {
 
     fn raw(&self, base: u64) -> sys::OptixShaderBindingTable {
         let [raygen, exception, miss, hitgroup, callables] = self.places;
+        // OptiX wants these two also of a pipeline that traces no rays; nothing reads them there.
+        let [miss, hitgroup] = [miss, hitgroup].map(|place| if place.count == 0 { raygen } else { place });
         sys::OptixShaderBindingTable {
             raygen_record: raygen.address(base),
             exception_record: exception.address(base),
