@@ -157,18 +157,18 @@ impl<'a> Session<'a> {
         let library = nvvm::choose().map_err(Error::NoNvvm)?;
         let ir = self.own.join(format!("{}.ll", wrapper.library));
         self.run_cargo(wrapper, target_dir, "llvm-ir", &ir)?;
-        let ir = util::read(&ir)?;
+        let module = nvvm::translated(self.shaders, &util::read(&ir)?)?;
         // The PTX stays as long as what it was made of does.
         let options = nvvm::options(self.shaders).join(" ");
         let library_path = library.path.to_string_lossy();
-        let key = util::hash([ir.as_str(), &options, &library_path, env!("CARGO_PKG_VERSION")]);
+        let key = util::hash([module.text.as_str(), &options, &library_path]);
         let ptx = self.own.join(format!("{}.nvvm.ptx", wrapper.library));
         let made_of = ptx.with_extension("key");
         let made = if util::read(&made_of).is_ok_and(|old| old == key) { util::read(&ptx).ok() } else { None };
         let text = match made {
             Some(text) => text,
             None => {
-                let text = nvvm::ptx(&library, self.shaders, &ir)?;
+                let text = nvvm::ptx(&library, self.shaders, &module)?;
                 util::write_if_changed(&ptx, &text)?;
                 util::write_if_changed(&made_of, &key)?;
                 text

@@ -1,6 +1,6 @@
 //! From `rustc`'s LLVM IR to PTX, with the options of a device build.
 
-use super::{Dialect, Library, find, translate};
+use super::{Dialect, Library, Translated, find, translate};
 use crate::error::{Doing, Error};
 use crate::options::Shaders;
 
@@ -16,11 +16,15 @@ pub(crate) fn options(shaders: &Shaders) -> Vec<String> {
     ]
 }
 
-/// Compiles the IR of a shader crate.
-pub(crate) fn ptx(library: &Library, shaders: &Shaders, ir: &str) -> Result<String, Error> {
+/// The IR of a shader crate as libNVVM takes it.
+pub(crate) fn translated(shaders: &Shaders, ir: &str) -> Result<Translated, Error> {
     let dialect = Dialect::of(&shaders.arch)
         .ok_or_else(|| Error::UnknownArch { arch: shaders.arch.clone(), known: vec!["sm_75 and newer".into()] })?;
-    let module = translate(ir, dialect).map_err(Error::Refused)?;
+    translate(ir, dialect).map_err(Error::Refused)
+}
+
+/// Compiles a shader crate that was translated.
+pub(crate) fn ptx(library: &Library, shaders: &Shaders, module: &Translated) -> Result<String, Error> {
     let libdevice = if module.needs_libdevice {
         let path = find::libdevice(&library.path)
             .ok_or_else(|| Error::NoNvvm(format!("there is no libdevice.10.bc beside {}", library.path.display())))?;
@@ -28,5 +32,5 @@ pub(crate) fn ptx(library: &Library, shaders: &Shaders, ir: &str) -> Result<Stri
     } else {
         None
     };
-    library.compile(&module, libdevice.as_deref(), &options(shaders)).map_err(Error::Nvvm)
+    library.compile(module, libdevice.as_deref(), &options(shaders)).map_err(Error::Nvvm)
 }

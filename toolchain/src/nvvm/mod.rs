@@ -28,7 +28,7 @@ pub use driver::{PtxVersion, choose};
 #[cfg(feature = "cli")]
 pub(crate) use find::cached;
 pub use find::{cache, libdevice, libraries};
-pub(crate) use generate::{options, ptx};
+pub(crate) use generate::{options, ptx, translated};
 pub use library::{Failure, Library};
 pub use refusal::Refusal;
 

@@ -9,8 +9,8 @@ mod refused;
 
 use super::{Dialect, Library, choose, libdevice, translate};
 
-/// Every architecture that is compiled for in tests: of all generations that take LLVM 7's IR.
-const ARCHS: [&str; 5] = ["75", "80", "86", "89", "90"];
+/// Every architecture that is compiled for in tests: of all generations that take LLVM 7's IR, and two that take modern IR.
+const ARCHS: [&str; 7] = ["75", "80", "86", "89", "90", "100", "120"];
 
 /// libNVVM, where it is there; otherwise says that the test did not run.
 fn library(test: &str) -> Option<Library> {
@@ -25,7 +25,8 @@ fn library(test: &str) -> Option<Library> {
 
 /// Translates and compiles IR for an architecture; fails the test if that does not work.
 fn compile(library: &Library, ir: &str, arch: &str) -> String {
-    let module = translate(ir, Dialect::Llvm7).unwrap_or_else(|refusal| panic!("{refusal}\n{ir}"));
+    let dialect = Dialect::of(&format!("sm_{arch}")).expect("an architecture");
+    let module = translate(ir, dialect).unwrap_or_else(|refusal| panic!("{refusal}\n{ir}"));
     let libdevice = libdevice(&library.path).and_then(|path| std::fs::read(path).ok());
     let libdevice = libdevice.as_deref().filter(|_| module.needs_libdevice);
     let options = [format!("-arch=compute_{arch}")];
