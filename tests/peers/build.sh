@@ -30,3 +30,7 @@ rust() {
 }
 rust rustc
 rust rustc-exact --fmad=false
+if cargo optix doctor | grep -q "ok *libNVVM"; then
+    rust nvvm --codegen nvvm
+    rust nvvm-exact --codegen nvvm --fmad=false
+fi
