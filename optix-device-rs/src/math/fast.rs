@@ -2,7 +2,7 @@
 //! `sinf` and the like.
 //!
 //! The stated errors are NVIDIA's for the instructions (PTX ISA). On the host these are the precise functions of
-//! [`Math`](super::Math), so results on the two machines differ by the errors that are stated.
+//! [`Math`], so results on the two machines differ by the errors that are stated.
 //!
 //! ```
 //! use optix_device_rs::math::fast;
