@@ -472,7 +472,7 @@ pub const fn callable<F: crate::callable::Signature>(name: &str) {
     }
 }
 
-/// A user exception has a code of 30 bits and 8 words of details at most (guide 13.14).
+/// A user exception has a code of 30 bits (guide 13.14) and [`MAX_DETAILS`](crate::exception::MAX_DETAILS) words of details at most.
 pub const fn exception(name: &str, variant: &str, code: i64, words: usize) {
     let text = EMPTY.push("exception `").push(name).push("::").push(variant);
     if code < 0 || code >= crate::exception::MAX_CODE as i64 {

@@ -89,7 +89,8 @@ impl Random {
         match self.below(9) {
             0..=3 => format!("{a} {} {b}", self.of(&["+", "-", "*", "/"])),
             4 => format!("-{a}"),
-            5 => format!("{a}.abs().copysign({b})"),
+            // The sign of a NaN that arithmetic made is not defined.
+            5 => format!("{a}.abs().copysign({{ let s: {ty} = {b}; if s.is_nan() {{ 1.0 }} else {{ s }} }})"),
             6 => format!("if {a} < {b} {{ {a} }} else {{ {b} }}"),
             7 => {
                 let from = self.of(&INTEGERS[..8]);

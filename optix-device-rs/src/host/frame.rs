@@ -38,14 +38,14 @@ pub struct ExceptionState {
     /// Negative for OptiX's own: [`Raised`](crate::exception::Raised).
     pub code: i32,
     /// Details of a user exception.
-    pub details: [u32; 8],
+    pub details: [u32; crate::exception::MAX_DETAILS],
     /// Where it was thrown, if that is known.
     pub line: Option<CString>,
 }
 
 impl ExceptionState {
     /// For other programs.
-    pub const NONE: Self = Self { code: 0, details: [0; 8], line: None };
+    pub const NONE: Self = Self { code: 0, details: [0; crate::exception::MAX_DETAILS], line: None };
 }
 
 /// A call of a callable (guide 15.2).

@@ -13,7 +13,7 @@ impl Cx {
     /// no constant.
     #[inline(always)]
     pub fn throw<const CODE: u32>(&self, count: usize, details: &[u32; MAX_DETAILS]) -> ! {
-        let [d0, d1, d2, d3, d4, d5, d6, d7] = *details;
+        let [d0, d1, d2, d3, d4] = *details;
         macro_rules! arm {
             ($count:expr, [$($used:ident)*] [$($unused:ident)*]) => {
                 if $count == count!($($used)*) {
@@ -39,11 +39,8 @@ impl Cx {
             (@n d0 d1 d2) => { "3" };
             (@n d0 d1 d2 d3) => { "4" };
             (@n d0 d1 d2 d3 d4) => { "5" };
-            (@n d0 d1 d2 d3 d4 d5) => { "6" };
-            (@n d0 d1 d2 d3 d4 d5 d6) => { "7" };
-            (@n d0 d1 d2 d3 d4 d5 d6 d7) => { "8" };
         }
-        by_count!(arm, count, [] [d0 d1 d2 d3 d4 d5 d6 d7]);
+        by_count!(arm, count, [] [d0 d1 d2 d3 d4]);
         super::trap()
     }
 
@@ -63,7 +60,7 @@ impl Cx {
                 }
             )*};
         }
-        get!(0 1 2 3 4 5 6 7);
+        get!(0 1 2 3 4);
         words
     }
 
