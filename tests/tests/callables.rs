@@ -16,7 +16,7 @@ const INDICES: u32 = 30;
 const BY: [Vec3; 2] = [Vec3::new(2.0, 3.0, 0.5), Vec3::new(-1.0, 0.25, 4.0)];
 const MIRROR: Mirror = Mirror { origin: Vec3::new(0.0, 0.0, 4.0), share: 0.5 };
 /// No exception.
-const NONE: [u32; 6] = [!0; 9];
+const NONE: [u32; 6] = [!0; 6];
 
 struct Machine {
     device: Device,

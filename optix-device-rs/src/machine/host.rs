@@ -334,7 +334,7 @@ impl Cx {
     #[inline(always)]
     pub fn exception_details(&self, _count: usize) -> WordBuffer {
         let mut words = WordBuffer::ZERO;
-        words.0[..8].copy_from_slice(&self.frame().exception.details);
+        words.0[..MAX_DETAILS].copy_from_slice(&self.frame().exception.details);
         words
     }
     #[inline(always)]
