@@ -30,7 +30,9 @@ rust() {
 }
 rust rustc
 rust rustc-exact --fmad=false
-if cargo optix doctor | grep -q "ok *libNVVM"; then
+# Not in a pipe: `grep -q` would end doctor before it is done.
+found=$(cargo optix doctor || true)
+if grep -q "ok *libNVVM" <<<"$found"; then
     rust nvvm --codegen nvvm
     rust nvvm-exact --codegen nvvm --fmad=false
 fi
