@@ -35,7 +35,9 @@ fn the_goldens_cost_what_they_do() {
     };
     for arch in ["sm_75", "sm_90"] {
         let usages = ptxas.usage(&built.text, arch, &common::area()).expect("it assembles");
-        assert_eq!(usages.len(), programs.len());
+        // Of callables, which are functions and no entries, ptxas says nothing.
+        let entries = programs.iter().filter(|program| !program.name.contains("_callable__")).count();
+        assert_eq!(usages.len(), entries);
         for usage in usages {
             assert!(usage.registers.is_some_and(|registers| (8..64).contains(&registers)), "{usage:?}");
             assert_eq!(usage.spill_stores, 0, "{usage:?}");
