@@ -40,8 +40,9 @@ use crate::pipeline::Throws;
 
 /// The most words of details that an exception carries.
 ///
-/// The guide has eight (13.14). But in OptiX 9.0 with driver 580.159 an exception program that asks for one of the last
-/// three of a user exception ends the launch with an illegal address, so five are all that is sure to arrive.
+/// The guide has eight (13.14). With OptiX 9.0 of driver 580.159 an exception program that asked for one of the last three
+/// of eight ended the launch with an illegal address, whatever was in them, while the first five arrived from a
+/// ray-generation program. With five in all there is still a program kind or a case that ends so; which is not known yet.
 pub const MAX_DETAILS: usize = 5;
 /// User codes are below this (guide 13.14).
 pub const MAX_CODE: u32 = 1 << 30;
