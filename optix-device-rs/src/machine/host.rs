@@ -234,13 +234,6 @@ impl Cx {
         4
     }
     /// # Safety
-    /// `ias` was built with random instance access and has an instance `index`.
-    #[inline(always)]
-    pub unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
-        // SAFETY: the caller's.
-        unsafe { self.frame().executor.instance_traversable_from_ias(ias, index) }
-    }
-    /// # Safety
     /// `handle` is of an instance.
     #[inline(always)]
     pub unsafe fn instance_id_from_handle(&self, handle: u64) -> u32 {
@@ -267,20 +260,6 @@ impl Cx {
     pub unsafe fn instance_inverse_transform_from_handle(&self, handle: u64) -> [[f32; 4]; 3] {
         // SAFETY: the caller's.
         unsafe { self.frame().executor.instance(handle) }.inverse
-    }
-    /// # Safety
-    /// `gas` is of triangles and was built with random vertex access; `sbt_gas_index` is a record of one of its build
-    /// inputs, which has a triangle `primitive`.
-    #[inline(always)]
-    pub unsafe fn triangle_vertices_from_handle(
-        &self,
-        gas: u64,
-        primitive: u32,
-        sbt_gas_index: u32,
-        _time: f32,
-    ) -> [Vec3; 3] {
-        // SAFETY: the caller's.
-        unsafe { self.frame().executor.triangle_vertices_from_handle(gas, primitive, sbt_gas_index) }
     }
     #[inline(always)]
     pub fn triangle_vertices(&self) -> [Vec3; 3] {

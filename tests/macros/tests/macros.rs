@@ -482,13 +482,7 @@ fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer)
         fn transform_list_handle(&self, _: u32) -> u64 {
             unreachable!()
         }
-        unsafe fn instance_traversable_from_ias(&self, _: u64, _: u32) -> u64 {
-            unreachable!()
-        }
         unsafe fn instance(&self, _: u64) -> InstanceState {
-            unreachable!()
-        }
-        unsafe fn triangle_vertices_from_handle(&self, _: u64, _: u32, _: u32) -> [Vec3; 3] {
             unreachable!()
         }
         fn object_to_world(&self) -> [[f32; 4]; 3] {

@@ -5,7 +5,7 @@ use super::exceptions::throw;
 use super::handle::{self, rows};
 use super::traversal::{AtHit, Traversal};
 use super::{Job, trap};
-use crate::cpu::kernel::{self, Accel, RayQuery};
+use crate::cpu::kernel::{self, RayQuery};
 use crate::sbt::Section;
 use core::cell::Cell;
 use core::ptr::NonNull;
@@ -245,14 +245,6 @@ impl Executor for Call<'_> {
     fn transform_list_handle(&self, _: u32) -> u64 {
         trap("there is no primitive, so no transform list".into())
     }
-    unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
-        // SAFETY: the caller's.
-        let placed = match unsafe { handle::structure(ias) } {
-            Some(Accel::Ias(ias)) => ias.instances().get(index as usize),
-            _ => None,
-        };
-        placed.map_or_else(|| trap(format!("there is no instance {index} (guide 13.12, G073)")), handle::of)
-    }
     unsafe fn instance(&self, handle: u64) -> InstanceState {
         // SAFETY: the caller's.
         let Some(placed) = (unsafe { handle::instance(handle) }) else {
@@ -263,17 +255,6 @@ impl Executor for Call<'_> {
             child: handle::of(&*placed.instance.child),
             transform: rows(placed.instance.transform),
             inverse: rows(placed.inverse_transform()),
-        }
-    }
-    unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3] {
-        // SAFETY: the caller's.
-        let vertices = match unsafe { handle::structure(gas) } {
-            Some(Accel::Gas(gas)) => gas.triangle_vertices(sbt_gas_index, primitive),
-            _ => None,
-        };
-        match vertices {
-            Some(vertices) => vertices.map(Vec3::from_array),
-            None => trap(format!("there is no triangle {primitive} of record {sbt_gas_index} (guide 13.9, G058)")),
         }
     }
     fn object_to_world(&self) -> [[f32; 4]; 3] {
