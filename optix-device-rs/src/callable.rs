@@ -216,20 +216,9 @@ impl<F, K> Callables<F, K> {
     /// Ends the program if `index >= len`.
     #[inline(always)]
     pub fn get(self, index: u32) -> Callable<F, K> {
-        // As for views: the device has no use for the message.
-        #[cfg(target_arch = "nvptx64")]
-        crate::machine::check(u64::from(index), u64::from(self.len));
-        #[cfg(not(target_arch = "nvptx64"))]
-        if index >= self.len {
-            out_of_range(index, self.len);
-        }
+        let len = self.len;
+        let message = format_args!("callable {index} is out of range: the table has {len}");
+        crate::machine::check(u64::from(index), u64::from(len), message);
         Callable { index: self.first + index, types: PhantomData }
     }
-}
-
-#[cfg(not(target_arch = "nvptx64"))]
-#[cold]
-#[inline(never)]
-fn out_of_range(index: u32, len: u32) -> ! {
-    panic!("callable {index} is out of range: the table has {len}")
 }

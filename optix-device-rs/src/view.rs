@@ -102,26 +102,11 @@ unsafe fn write<T: Element>(at: *mut T, value: T) {
     }
 }
 
-#[cfg(not(target_arch = "nvptx64"))]
-#[cold]
-#[inline(never)]
-fn out_of_range(what: &str, index: usize, len: usize) -> ! {
-    panic!("{what} index {index} is out of range: the buffer has {len} elements")
-}
-
 /// Ends the program unless `index < len`.
 #[inline(always)]
 fn check(what: &str, index: u64, len: u64) {
-    #[cfg(target_arch = "nvptx64")]
-    {
-        // The device has no use for the message, and formatting code would be in the PTX.
-        let _ = what;
-        crate::machine::check(index, len);
-    }
-    #[cfg(not(target_arch = "nvptx64"))]
-    if index >= len {
-        out_of_range(what, index as usize, len as usize);
-    }
+    let message = format_args!("{what} index {index} is out of range: the buffer has {len} elements");
+    crate::machine::check(index, len, message);
 }
 
 macro_rules! linear_view {

@@ -9,14 +9,8 @@ use optix_host::{Device, OptixOptions};
 use optix_tests::devices;
 use optix_tests::probe::{Part, ProbeHit, ProbeRay, Tracer, ray};
 use path_tracer::render::{LARGEST_PASS, Render, Settings};
-use path_tracer::scene::{self, Cornell, LIGHT, MESH_PLACE};
-use path_tracer::{knot, mesh, shaders::Pinhole};
-
-fn knot_in_place() -> mesh::Mesh {
-    let mut mesh = knot::torus_knot(512, 48);
-    mesh::fit_into(&mut mesh, MESH_PLACE.0, MESH_PLACE.1);
-    mesh
-}
+use path_tracer::scene::{self, Cornell, LIGHT};
+use path_tracer::shaders::Pinhole;
 
 /// The triangles of the default scene. The mesh stands turned, so transforms count.
 struct Triangles {
@@ -28,7 +22,7 @@ type Placed = (Vec<Vec3>, Option<Vec<[u32; 3]>>, Affine3A);
 
 impl Triangles {
     fn of_default_scene() -> Self {
-        let mesh = knot_in_place();
+        let mesh = scene::knot();
         let positions: Vec<Vec3> = mesh.positions.iter().map(|&p| p.into()).collect();
         let turned = Affine3A::from_rotation_y(0.3) * Affine3A::from_scale(Vec3::new(1.05, 0.9, 1.1));
         let (corner, side, other) = scene::leaf();
@@ -133,7 +127,7 @@ fn primary_hits_agree() {
 }
 
 fn render(device: &Device, samples: u64, seed: u64, size: u32) -> Moments {
-    let cornell = Cornell::new(device, &knot_in_place(), 1.0).unwrap();
+    let cornell = Cornell::new(device, &scene::knot(), 1.0).unwrap();
     let mut render = Render::new(device, &cornell, Settings { size: [size, size], bounces: 8, seed }).unwrap();
     for _ in 0..samples / u64::from(LARGEST_PASS) {
         render.pass(LARGEST_PASS).unwrap();
@@ -167,7 +161,7 @@ fn pictures_agree() {
 #[test]
 fn loads_of_bound_parameters_are_reported() {
     let Some(optix) = devices::optix("loads_of_bound_parameters_are_reported") else { return };
-    let cornell = Cornell::new(&optix, &knot_in_place(), 1.0).unwrap();
+    let cornell = Cornell::new(&optix, &scene::knot(), 1.0).unwrap();
     // A number of bounces that no other test binds: the module is not in the cache the first time.
     let settings = Settings { size: [16, 16], bounces: 37, seed: 1 };
     let explanation = Render::new(&optix, &cornell, settings).unwrap().explain();

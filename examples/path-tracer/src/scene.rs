@@ -1,6 +1,7 @@
 //! The scene: a box lit by an area light, with a mesh, a mirror ball and a leaf.
 
-use crate::mesh::Mesh;
+use crate::knot::torus_knot;
+use crate::mesh::{Mesh, fit_into};
 use glam::{Affine3A, Quat, Vec3};
 use optix_host::{Aabb, Boxes, Device, Result, Scene, TriangleMesh, World};
 use path_tracer_shaders::{AreaLight, Ball, Emitter, Lambert, Leaf, PathTracer, Pinhole, SmoothHost};
@@ -19,6 +20,13 @@ pub struct Cornell {
 
 /// Where the mesh stands: centre and extents of its place in the box, which reaches from -1 to 1 on each axis.
 pub const MESH_PLACE: ([f32; 3], [f32; 3]) = ([-0.25, -0.35, -0.25], [1.15, 1.3, 1.15]);
+
+/// The built-in mesh in its place.
+pub fn knot() -> Mesh {
+    let mut mesh = torus_knot(512, 48);
+    fit_into(&mut mesh, MESH_PLACE.0, MESH_PLACE.1);
+    mesh
+}
 
 /// The light: below the ceiling, downwards.
 pub const LIGHT: AreaLight = AreaLight {

@@ -61,6 +61,19 @@ fn each_word(payload: &Cell<WordBuffer>) -> &[Cell<u32>; MAX_PAYLOAD_WORDS] {
     unsafe { &*core::ptr::from_ref(payload).cast() }
 }
 
+/// Ends the program with this message unless `index < len`.
+#[inline(always)]
+pub fn check(index: u64, len: u64, message: core::fmt::Arguments<'_>) {
+    #[cold]
+    #[inline(never)]
+    fn end(message: core::fmt::Arguments<'_>) -> ! {
+        panic!("{message}")
+    }
+    if index >= len {
+        end(message);
+    }
+}
+
 /// `OptixPrimitiveType` of a hit kind.
 #[inline(always)]
 pub fn primitive_type_of(kind: u8) -> u32 {

@@ -10,7 +10,7 @@ pub use ptx::{Cx, ParamsBase, approximate, check, is_back_face, load_param, prim
 #[cfg(not(target_arch = "nvptx64"))]
 mod host;
 #[cfg(not(target_arch = "nvptx64"))]
-pub use host::{Cx, ParamsBase, is_back_face, load_param, primitive_type_of, unwritten};
+pub use host::{Cx, ParamsBase, check, is_back_face, load_param, primitive_type_of, unwritten};
 
 /// The arguments of a trace call but for the payload, all derived from the ray and the ray type.
 #[derive(Clone, Copy, Debug)]

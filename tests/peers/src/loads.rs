@@ -4,21 +4,14 @@ use crate::load::{Film, Load};
 use glam::{Affine3A, Quat, UVec2, Vec3};
 use optix_device_rs::rng::Pcg32;
 use optix_host::{Aabb, Boxes, Device, Geometry, Result, Scene, TriangleMesh};
-use path_tracer::scene::{self, Cornell, MESH_PLACE};
+use path_tracer::scene::{self, Cornell};
 use path_tracer::shaders::{FrameHost, PathTracer, Pinhole};
-use path_tracer::{knot, mesh};
 use peer_shaders::field::{Field, FieldFrameHost, Gyroid};
 use peer_shaders::foliage::{Blade, Foliage, FoliageFrameHost, Ground};
 use peer_shaders::occlusion::{Clay, Occlusion, OcclusionFrameHost};
 use peer_shaders::wide::{Paint, Wide, WideFrameHost};
 
 const PEERS: &str = "peer_shaders";
-
-fn knot_in_place() -> mesh::Mesh {
-    let mut mesh = knot::torus_knot(512, 48);
-    mesh::fit_into(&mut mesh, MESH_PLACE.0, MESH_PLACE.1);
-    mesh
-}
 
 fn camera(size: UVec2) -> Pinhole {
     Pinhole::look_at(Vec3::new(0.0, 0.0, 3.9), Vec3::ZERO, Vec3::Y, 0.69, size.x as f32 / size.y as f32)
@@ -29,15 +22,14 @@ fn room<P: optix_device_rs::pipeline::Pipeline>(
     scene: &mut Scene<P>,
 ) -> Result<[Geometry<optix_device_rs::prelude::Triangles>; 2]> {
     let walls = scene.geometry(TriangleMesh::new(&scene::walls().concat()))?;
-    let mesh = knot_in_place();
+    let mesh = scene::knot();
     let positions: Vec<Vec3> = mesh.positions.iter().map(|&p| p.into()).collect();
     Ok([walls, scene.geometry(TriangleMesh::new(&positions).indices(&mesh.indices))?])
 }
 
 /// The examples' path tracer in its default scene.
 pub fn path_tracer(device: &Device, size: UVec2, samples: u32) -> Result<Load<PathTracer>> {
-    let Cornell { scene, world, light, camera } =
-        Cornell::new(device, &knot_in_place(), size.x as f32 / size.y as f32)?;
+    let Cornell { scene, world, light, camera } = Cornell::new(device, &scene::knot(), size.x as f32 / size.y as f32)?;
     let (sum, squares) = (device.zeroed_2d(size.into())?, device.zeroed_2d(size.into())?);
     let frame = FrameHost {
         sum: sum.clone(),

@@ -16,7 +16,7 @@ pub use ball::Ball;
 pub use camera::Pinhole;
 pub use leaf::Leaf;
 pub use light::{AreaLight, Emitter};
-pub use surface::{Lambert, Smooth, SmoothHost};
+pub use surface::{Lambert, Smooth, SmoothHost, cosine};
 
 use optix_device_rs::prelude::*;
 

@@ -115,7 +115,7 @@ fn direct(
 }
 
 /// A direction around +z, by the cosine: a point of the unit disk, raised (Malley's method).
-fn cosine(at: Vec2) -> Vec3 {
+pub fn cosine(at: Vec2) -> Vec3 {
     let radius = at.x.sqrt();
     let (sin, cos) = sin_cos_turns(at.y);
     Vec3::new(radius * cos, radius * sin, (1.0 - at.x).max(0.0).sqrt())

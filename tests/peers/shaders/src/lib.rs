@@ -10,15 +10,7 @@ pub mod foliage;
 pub mod occlusion;
 pub mod wide;
 
-use optix_device_rs::math::sin_cos_turns;
 use optix_device_rs::prelude::*;
-
-/// A direction around +z, by the cosine (Malley's method).
-fn cosine(at: Vec2) -> Vec3 {
-    let radius = at.x.sqrt();
-    let (sin, cos) = sin_cos_turns(at.y);
-    Vec3::new(radius * cos, radius * sin, (1.0 - at.x).max(0.0).sqrt())
-}
 
 /// The middle of a pixel in the picture, both coordinates from 0 to 1.
 fn middle(px: UVec2, size: UVec2) -> Vec2 {

@@ -1,8 +1,8 @@
 //! Ambient occlusion: one camera ray a pixel, and many short rays that any hit ends.
 
-use crate::{cosine, middle};
+use crate::middle;
 use optix_device_rs::prelude::*;
-use path_tracer_shaders::Pinhole;
+use path_tracer_shaders::{Pinhole, cosine};
 
 /// The launch parameters.
 #[launch_params]

@@ -1,8 +1,8 @@
 //! Paths that carry their whole state through a payload of 24 words.
 
-use crate::{cosine, middle};
+use crate::middle;
 use optix_device_rs::prelude::*;
-use path_tracer_shaders::Pinhole;
+use path_tracer_shaders::{Pinhole, cosine};
 
 /// The launch parameters.
 #[launch_params]
