@@ -38,12 +38,8 @@
 
 use crate::pipeline::Throws;
 
-/// The most words of details that an exception carries.
-///
-/// The guide has eight (13.14). With OptiX 9.0 of driver 580.159 an exception program that asked for one of the last three
-/// of eight ended the launch with an illegal address, whatever was in them, while the first five arrived from a
-/// ray-generation program. With five in all there is still a program kind or a case that ends so; which is not known yet.
-pub const MAX_DETAILS: usize = 5;
+/// The most words of details that an exception carries (guide 13.14).
+pub const MAX_DETAILS: usize = 8;
 /// User codes are below this (guide 13.14).
 pub const MAX_CODE: u32 = 1 << 30;
 

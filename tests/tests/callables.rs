@@ -16,7 +16,7 @@ const INDICES: u32 = 30;
 const BY: [Vec3; 2] = [Vec3::new(2.0, 3.0, 0.5), Vec3::new(-1.0, 0.25, 4.0)];
 const MIRROR: Mirror = Mirror { origin: Vec3::new(0.0, 0.0, 4.0), share: 0.5 };
 /// No exception.
-const NONE: [u32; 6] = [!0; 6];
+const NONE: [u32; 9] = [!0; 9];
 
 struct Machine {
     device: Device,
@@ -57,7 +57,7 @@ impl Machine {
         Self { device: device.clone(), scene, pipeline, world, textures, shaders }
     }
 
-    fn frame(&self, bounces: u32, thrower: u32) -> (CallFrameHost, Buffer<[f32; 4]>, Buffer<[u32; 6]>) {
+    fn frame(&self, bounces: u32, thrower: u32) -> (CallFrameHost, Buffer<[f32; 4]>, Buffer<[u32; 9]>) {
         let found = self.device.zeroed(INDICES as usize).unwrap();
         let thrown = self.device.buffer(&[NONE; INDICES as usize]).unwrap();
         let frame = CallFrameHost {
@@ -73,7 +73,7 @@ impl Machine {
     }
 
     /// What was found, and what was thrown.
-    fn launch(&self, bounces: u32, thrower: u32) -> (Vec<[f32; 4]>, Vec<[u32; 6]>) {
+    fn launch(&self, bounces: u32, thrower: u32) -> (Vec<[f32; 4]>, Vec<[u32; 9]>) {
         let (frame, found, thrown) = self.frame(bounces, thrower);
         self.pipeline.launch(&frame, [INDICES, 1, 1]).unwrap().wait().unwrap();
         (found.read().unwrap(), thrown.read().unwrap())
@@ -112,13 +112,14 @@ fn expected(index: u32, bounces: u32) -> [f32; 4] {
 }
 
 /// What the exception program notes of a fault.
-fn note(thrower: u32, index: u32) -> [u32; 6] {
+fn note(thrower: u32, index: u32) -> [u32; 9] {
     match index % 3 {
-        0 => [1, 0, 0, 0, 0, 0],
-        1 => [3, (thrower as f32).to_bits(), (index as f32).to_bits(), 0, 0, 0],
+        0 => [1, 0, 0, 0, 0, 0, 0, 0, 0],
+        1 => [3, (thrower as f32).to_bits(), (index as f32).to_bits(), 0, 0, 0, 0, 0, 0],
         _ => {
             let double = (-1.0 / f64::from(index)).to_bits();
-            [2, thrower, index, double as u32, (double >> 32) as u32, index & 1]
+            let single = (0.5 + index as f32).to_bits();
+            [2, thrower, index, 0, 0, single, double as u32, (double >> 32) as u32, index & 1]
         }
     }
 }

@@ -1,4 +1,4 @@
-// I022: an exception has 5 words of details at most
+// I022: an exception has 8 words of details at most
 
 use optix_device_rs::prelude::*;
 

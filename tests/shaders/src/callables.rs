@@ -13,7 +13,7 @@ pub struct CallFrame {
     /// What each launch index found out.
     pub found: SliceMut<[f32; 4]>,
     /// Code and details of each launch index's exception; all ones without one.
-    pub thrown: SliceMut<[u32; 6]>,
+    pub thrown: SliceMut<[u32; 9]>,
     /// Direct callables.
     pub textures: Callables<Texture>,
     /// Continuation callables.
@@ -54,9 +54,9 @@ pub enum Fault {
         /// Who threw.
         thrower: u32,
         /// The launch index.
-        index: u32,
+        index: UVec3,
         /// Values of several sizes.
-        values: (f64, bool),
+        values: (f32, f64, bool),
     } = 0x3fff_fff0,
     /// Less.
     Part(Vec2),
@@ -121,7 +121,7 @@ fn fault(thrower: u32, index: UVec3) -> Fault {
     match index.x % 3 {
         0 => Fault::Lost,
         1 => Fault::Part(Vec2::new(thrower as f32, index.x as f32)),
-        _ => Fault::Full { thrower, index: index.x, values: (-1.0 / index.x as f64, index.x & 1 == 1) },
+        _ => Fault::Full { thrower, index, values: (0.5 + index.x as f32, -1.0 / index.x as f64, index.x & 1 == 1) },
     }
 }
 
@@ -238,15 +238,16 @@ fn sky(ms: &Miss<Calls>) -> BounceFromMiss {
 #[exception]
 fn caught(ex: &Exception<Calls>) {
     let note = match ex.raised() {
-        Raised::User(Fault::Lost) => [1, 0, 0, 0, 0, 0],
-        Raised::User(Fault::Full { thrower, index, values: (double, flag) }) => {
+        Raised::User(Fault::Lost) => [1, 0, 0, 0, 0, 0, 0, 0, 0],
+        Raised::User(Fault::Full { thrower, index, values: (single, double, flag) }) => {
             let bits = double.to_bits();
-            [2, thrower, index, bits as u32, (bits >> 32) as u32, u32::from(flag)]
+            let [x, y, z] = index.to_array();
+            [2, thrower, x, y, z, single.to_bits(), bits as u32, (bits >> 32) as u32, u32::from(flag)]
         }
-        Raised::User(Fault::Part(at)) => [3, at.x.to_bits(), at.y.to_bits(), 0, 0, 0],
-        Raised::TraceDepthExceeded => [4, 0, 0, 0, 0, 0],
-        Raised::StackOverflow => [5, 0, 0, 0, 0, 0],
-        _ => [6, ex.exception_code().cast_unsigned(), 0, 0, 0, 0],
+        Raised::User(Fault::Part(at)) => [3, at.x.to_bits(), at.y.to_bits(), 0, 0, 0, 0, 0, 0],
+        Raised::TraceDepthExceeded => [4, 0, 0, 0, 0, 0, 0, 0, 0],
+        Raised::StackOverflow => [5, 0, 0, 0, 0, 0, 0, 0, 0],
+        _ => [6, ex.exception_code().cast_unsigned(), 0, 0, 0, 0, 0, 0, 0],
     };
     ex.params().thrown().set(ex.launch_index().x, note);
 }

@@ -13,7 +13,7 @@ impl Cx {
     /// no constant.
     #[inline(always)]
     pub fn throw<const CODE: u32>(&self, count: usize, details: &[u32; MAX_DETAILS]) -> ! {
-        let [d0, d1, d2, d3, d4] = *details;
+        let [d0, d1, d2, d3, d4, d5, d6, d7] = *details;
         macro_rules! arm {
             ($count:expr, [$($used:ident)*] [$($unused:ident)*]) => {
                 if $count == count!($($used)*) {
@@ -39,8 +39,11 @@ impl Cx {
             (@n d0 d1 d2) => { "3" };
             (@n d0 d1 d2 d3) => { "4" };
             (@n d0 d1 d2 d3 d4) => { "5" };
+            (@n d0 d1 d2 d3 d4 d5) => { "6" };
+            (@n d0 d1 d2 d3 d4 d5 d6) => { "7" };
+            (@n d0 d1 d2 d3 d4 d5 d6 d7) => { "8" };
         }
-        by_count!(arm, count, [] [d0 d1 d2 d3 d4]);
+        by_count!(arm, count, [] [d0 d1 d2 d3 d4 d5 d6 d7]);
         super::trap()
     }
 
@@ -50,17 +53,28 @@ impl Cx {
     }
 
     /// The first `count` details; the others are zero.
+    ///
+    /// Each read is followed by a fence. Without it, values that are used behind branches only are read from misaligned
+    /// addresses of local memory, which ends the launch (seen with driver 580.159): its compiler seems to move such reads, and
+    /// a fence, like a use before the branch, holds them.
     #[inline(always)]
     pub fn exception_details(&self, count: usize) -> WordBuffer {
         let mut words = WordBuffer::ZERO;
         macro_rules! get {
             ($($i:literal)*) => {$(
                 if count > $i {
-                    words.0[$i] = get_u32!(concat!("_optix_get_exception_detail_", $i));
+                    // SAFETY: an exception program may ask, and a fence has no effect on values.
+                    unsafe {
+                        asm!(
+                            concat!("call ({v}), _optix_get_exception_detail_", $i, ", (); membar.cta;"),
+                            v = out(reg32) words.0[$i],
+                            options(nomem, nostack, preserves_flags)
+                        )
+                    };
                 }
             )*};
         }
-        get!(0 1 2 3 4);
+        get!(0 1 2 3 4 5 6 7);
         words
     }
 

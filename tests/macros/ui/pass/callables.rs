@@ -31,7 +31,7 @@ pub struct Spot {
 pub enum Fault {
     Lost,
     At(Vec3, u32),
-    Spot { spot: (u64, bool), by: [f32; 2] },
+    Spot { spot: (u64, bool), by: [f32; 4] },
 }
 
 #[derive(Clone, Copy, UserException)]
@@ -165,5 +165,5 @@ pipeline! {
 fn main() {
     let codes: Vec<u32> = Numbered::VARIANTS.iter().map(|(code, _)| *code).collect();
     assert_eq!(codes, [7, 8, (1 << 30) - 1, 0x100]);
-    assert_eq!((Fault::DETAILS, Numbered::DETAILS), (5, 2));
+    assert_eq!((Fault::DETAILS, Numbered::DETAILS), (7, 2));
 }

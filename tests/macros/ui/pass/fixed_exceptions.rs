@@ -157,7 +157,7 @@ mod exception_too_many_details {
     #[derive(Clone, Copy, UserException)]
     pub enum Fault {
         Lost,
-        At { row: Vec3, w: Vec2 },
+        At { rows: [Vec3; 2], w: Vec2 },
     }
 }
 
