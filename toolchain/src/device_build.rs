@@ -121,7 +121,13 @@ impl<'a> Session<'a> {
             #[cfg(feature = "nvvm")]
             Codegen::Nvvm => self.generate_by_nvvm(&wrapper, &target_dir)?,
         };
-        let module = ptx::Module::read(&text).map_err(|problem| Error::Ptx { path: written.clone(), problem })?;
+        let plain = optix_ptx::plain(&text);
+        let module = optix_ptx::Module::read(&plain);
+        ptx::check(&module).map_err(|problem| Error::Ptx { path: written.clone(), problem })?;
+        let names = |entries: bool| {
+            let functions = module.defined().filter(|function| function.is_entry == entries);
+            functions.map(|function| function.name.to_string()).collect()
+        };
         let mut inputs = sources(&target_dir, &wrapper)?;
         let local = self.graph.packages.iter().filter(|package| package.source.is_none());
         inputs.extend(local.map(|package| package.manifest.clone()));
@@ -130,8 +136,8 @@ impl<'a> Session<'a> {
         inputs.extend(Some(self.compiler.rustc.clone()).filter(|file| file.is_absolute()));
         Ok(Built {
             name: self.package.library.clone().unwrap_or_else(|| self.package.name.clone()),
-            entries: module.entries.iter().map(|name| name.to_string()).collect(),
-            functions: module.functions.iter().map(|name| name.to_string()).collect(),
+            entries: names(true),
+            functions: names(false),
             ptx: written,
             text,
             inputs,

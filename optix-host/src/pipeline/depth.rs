@@ -1,15 +1,16 @@
 //! Which programs a launch reaches, and how deep their calls nest (guide 6.7, 6.8).
 
-use super::ptx::{self, PtxEntry};
 use crate::{Error, Result};
 use optix_device_rs::host::PipelineDescription;
-use std::collections::{BTreeMap, BTreeSet};
+use optix_ptx::{Function, Module};
+use std::collections::BTreeSet;
 
 /// Deepest nesting of trace calls (guide 12).
 const MAX_TRACE_DEPTH: u32 = 31;
 /// Deepest nesting of callables where neither the declaration nor the programs say one: as deep as `pipeline!` allows.
 const MAX_CALLABLE_DEPTH: u32 = 31;
 
+const TRACE: &str = "_optix_trace_typed_32";
 const CALL_DIRECT: &str = "_optix_call_direct_callable";
 const CALL_CONTINUATION: &str = "_optix_call_continuation_callable";
 
@@ -17,6 +18,13 @@ const CALL_CONTINUATION: &str = "_optix_call_continuation_callable";
 pub(crate) struct Reached {
     pub name: &'static str,
     place: Place,
+}
+
+impl Reached {
+    /// Whether the program, or what it calls, calls a device function that `is_it` says yes to.
+    pub fn calls(&self, module: &Module<'_>, is_it: impl Fn(&str) -> bool) -> bool {
+        module.reached(self.name).iter().flat_map(|function| function.calls()).any(|call| is_it(call.function))
+    }
 }
 
 /// When it runs.
@@ -70,11 +78,6 @@ pub(crate) fn needed_entries(
     entries
 }
 
-/// Their entries in the PTX.
-pub(crate) fn reached_entries<'a>(entries: &'a [Reached], ptx: &'a str) -> impl Iterator<Item = PtxEntry<'a>> {
-    ptx::entries(ptx).into_iter().filter(|entry| entries.iter().any(|reached| reached.name == entry.name))
-}
-
 /// How deep calls nest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Depths {
@@ -95,11 +98,11 @@ impl Depths {
     pub fn new(
         description: &PipelineDescription,
         entries: &[Reached],
-        ptx: Option<&str>,
+        module: Option<&Module<'_>>,
         note: &mut impl FnMut(&'static str, String, String),
     ) -> Result<Self> {
         let error = |what: String| Error::Pipeline { pipeline: description.name, what };
-        let programs = ptx.map(|text| programs(entries, text).map_err(error)).transpose()?;
+        let programs = module.map(|module| programs(entries, module).map_err(error)).transpose()?;
         let programs = programs.as_deref();
         let (trace, why) = trace(description, programs).map_err(error)?;
         note("trace depth", trace.to_string(), why);
@@ -132,10 +135,10 @@ impl Depths {
     fn add_callables(
         &mut self,
         description: &PipelineDescription,
-        programs: Option<&[Program<'_>]>,
+        programs: Option<&[Program<'_, '_>]>,
     ) -> Result<(), String> {
         let calls = |function: &str, from: fn(Place) -> bool| {
-            programs.is_none_or(|programs| programs.iter().any(|p| from(p.place) && p.entry.text.contains(function)))
+            programs.is_none_or(|programs| programs.iter().any(|p| from(p.reached.place) && p.calls.contains(function)))
         };
         let depth = |kind: &str, nested: bool| match (description.callable_depth, programs) {
             (Some(depth), _) if nested => Ok(depth),
@@ -165,36 +168,40 @@ impl Depths {
     }
 }
 
-/// A program with its code.
-struct Program<'a> {
-    place: Place,
-    entry: PtxEntry<'a>,
-    /// The ray types that it traces.
-    traces: BTreeSet<usize>,
+/// A program and what it does, in functions that it calls too.
+struct Program<'e, 'a> {
+    reached: &'e Reached,
+    /// The functions that it calls.
+    calls: BTreeSet<&'a str>,
+    /// The ray types that it traces; `None` where one is not a constant.
+    traces: Option<BTreeSet<usize>>,
 }
 
-fn programs<'a>(entries: &[Reached], ptx: &'a str) -> Result<Vec<Program<'a>>, String> {
-    let by_name: BTreeMap<_, _> = ptx::entries(ptx).into_iter().map(|e| (e.name, e)).collect();
-    let program = |reached: &Reached| {
-        let entry = by_name.get(reached.name).cloned().ok_or_else(|| {
-            format!("the PTX has no entry {}: it is of another build or crate than the host's pipeline", reached.name)
-        })?;
-        let types = ptx::traced_types(&entry).ok_or_else(|| {
-            format!(
-                "the payload type of a trace call in {} is not a constant, so the trace depth is not known: state \
-                 `trace_depth: N` in `pipeline!`",
+fn programs<'e, 'a>(entries: &'e [Reached], module: &Module<'a>) -> Result<Vec<Program<'e, 'a>>, String> {
+    let program = |reached: &'e Reached| {
+        let functions = module.reached(reached.name);
+        if functions.is_empty() {
+            return Err(format!(
+                "the PTX has no entry {}: it is of another build or crate than the host's pipeline",
                 reached.name
-            )
-        })?;
-        let traces = types.into_iter().map(|mask| mask.trailing_zeros() as usize).collect();
-        Ok(Program { place: reached.place, entry, traces })
+            ));
+        }
+        let calls = functions.iter().flat_map(|function| function.calls()).map(|call| call.function).collect();
+        Ok(Program { reached, calls, traces: traced(&functions) })
     };
     entries.iter().map(program).collect()
 }
 
+/// The ray types that functions trace: the bits of `OptixPayloadTypeID`, which is the first argument of each trace call.
+/// `None` where one is not a constant.
+fn traced(functions: &[&Function<'_>]) -> Option<BTreeSet<usize>> {
+    let calls = functions.iter().flat_map(|function| function.calls()).filter(|call| call.function == TRACE);
+    calls.map(|call| Some((*call.values.first()?)?.trailing_zeros() as usize)).collect()
+}
+
 /// How deep trace calls nest: the longest path from ray generation over ray types, where a ray type leads to those that its
 /// programs trace, and a call of a continuation callable to those that any of them traces.
-fn trace(description: &PipelineDescription, programs: Option<&[Program<'_>]>) -> Result<(u32, String), String> {
+fn trace(description: &PipelineDescription, programs: Option<&[Program<'_, '_>]>) -> Result<(u32, String), String> {
     if let Some(depth) = description.trace_depth {
         return match depth {
             0..=MAX_TRACE_DEPTH => Ok((depth, "stated in the pipeline's declaration".into())),
@@ -205,20 +212,29 @@ fn trace(description: &PipelineDescription, programs: Option<&[Program<'_>]>) ->
         return Ok((MAX_TRACE_DEPTH, "the most there is: without PTX it is not known which programs trace".into()));
     };
     let rays = description.rays.len();
-    let traced = |program: &Program<'_>| program.traces.iter().copied().filter(|&r| r < rays).collect::<BTreeSet<_>>();
-    let by_callables: BTreeSet<usize> =
-        programs.iter().filter(|p| p.place == Place::Continuation).flat_map(traced).collect();
+    let traced = |program: &Program<'_, '_>| match &program.traces {
+        Some(traces) => Ok(traces.iter().copied().filter(|&ray| ray < rays).collect::<BTreeSet<_>>()),
+        None => Err(format!(
+            "the payload type of a trace call in {} is not a constant, so the trace depth is not known: state \
+             `trace_depth: N` in `pipeline!`",
+            program.reached.name
+        )),
+    };
+    let mut by_callables = BTreeSet::new();
+    for program in programs.iter().filter(|program| program.reached.place == Place::Continuation) {
+        by_callables.extend(traced(program)?);
+    }
     let mut leads_to = vec![BTreeSet::new(); rays];
     let mut roots = BTreeSet::new();
     for program in programs {
-        let to = match program.place {
+        let to = match program.reached.place {
             Place::RayGen => &mut roots,
             Place::Shading(ray) => &mut leads_to[ray],
             // Those trace nothing, or count where they are called.
             _ => continue,
         };
-        to.extend(traced(program));
-        if program.entry.text.contains(CALL_CONTINUATION) {
+        to.extend(traced(program)?);
+        if program.calls.contains(CALL_CONTINUATION) {
             to.extend(&by_callables);
         }
     }
@@ -294,7 +310,8 @@ mod tests {
             text.push_str(&format!(".visible .{head} {name}()\n{{\n{code}\n}}\n"));
         }
         let entries: Vec<_> = programs.iter().map(|&(place, name, _)| Reached { name, place }).collect();
-        Depths::new(&description, &entries, Some(&text), &mut |_, _, _| {}).map_err(|error| error.to_string())
+        Depths::new(&description, &entries, Some(&Module::read(&text)), &mut |_, _, _| {})
+            .map_err(|error| error.to_string())
     }
 
     #[derive(optix_device_rs::prelude::Payload)]
@@ -305,7 +322,7 @@ mod tests {
 
     const DIRECT: &str = "call (%rd1), _optix_call_direct_callable, (%r1);";
     const CONTINUATION: &str = "call (%rd1), _optix_call_continuation_callable, (%r1);";
-    const TRACE: &str = "call (%r1), _optix_trace_typed_32, (1, %rd1);";
+    const TRACE_RAY: &str = "call (%r1), _optix_trace_typed_32, (1, %rd1);";
 
     #[test]
     fn callables_count_where_they_are_called() {
@@ -323,6 +340,23 @@ mod tests {
     }
 
     #[test]
+    fn functions_count_where_they_are_called() {
+        let helper = format!("call helper, ();\n}}\n.func helper()\n{{\n{TRACE_RAY} {DIRECT}");
+        let raygen = (Place::RayGen, "__raygen__a", helper.as_str());
+        let miss = (Place::Shading(0), "__miss__b", "");
+        let found = depths(&[raygen, miss], [None; 2]).unwrap();
+        assert_eq!((found.trace, found.direct_from_state), (1, 1));
+    }
+
+    #[test]
+    fn a_ray_type_that_is_no_constant_needs_a_depth() {
+        let raygen = (Place::RayGen, "__raygen__a", "call (%r1), _optix_trace_typed_32, (%r2, %rd1);");
+        let error = depths(&[raygen], [None; 2]).unwrap_err();
+        assert!(error.contains("__raygen__a is not a constant") && error.contains("trace_depth: N"), "{error}");
+        assert_eq!(depths(&[raygen], [Some(2), None]).unwrap().trace, 2);
+    }
+
+    #[test]
     fn callables_that_call_each_other_need_a_depth() {
         let raygen = (Place::RayGen, "__raygen__a", DIRECT);
         let direct = (Place::Direct, "__direct_callable__d", DIRECT);
@@ -337,7 +371,7 @@ mod tests {
     #[test]
     fn continuation_callables_trace_for_their_callers() {
         let raygen = (Place::RayGen, "__raygen__a", CONTINUATION);
-        let continuation = (Place::Continuation, "__continuation_callable__c", TRACE);
+        let continuation = (Place::Continuation, "__continuation_callable__c", TRACE_RAY);
         let miss = (Place::Shading(0), "__miss__b", "");
         assert_eq!(depths(&[raygen, continuation, miss], [None; 2]).unwrap().trace, 1);
         // The miss program calls what traces the ray that it ends.

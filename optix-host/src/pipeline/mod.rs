@@ -4,7 +4,6 @@ mod bind;
 mod depth;
 mod explain;
 mod plan;
-pub mod ptx;
 
 pub(crate) use bind::BoundValue;
 pub(crate) use depth::Depths;

@@ -1,11 +1,12 @@
 //! The specialisation of a pipeline type to a scene: everything that neither needs is left out.
 
-use super::depth::{Depths, Reached, needed_entries, reached_entries};
-use super::{BoundValue, Explanation, Note, ptx};
+use super::depth::{Depths, Reached, needed_entries};
+use super::{BoundValue, Explanation, Note};
 use crate::scene::SceneState;
 use crate::{Error, Result};
 use core::fmt;
 use optix_device_rs::host::{GeometryKind, PipelineDescription};
+use optix_ptx::Module;
 use std::collections::BTreeSet;
 
 /// Which traversable graphs rays meet.
@@ -138,12 +139,14 @@ impl Plan {
             note("payload words", format!("{words} of {}", ray.payload.name), reason);
         }
 
-        if let Some(text) = ptx {
-            check_layout(&description, text)?;
+        let plain = ptx.map(optix_ptx::plain);
+        let module = plain.as_deref().map(Module::read);
+        if let Some(module) = &module {
+            check_layout(&description, module)?;
         }
         let callables: BTreeSet<usize> = scene.callables.iter().map(|callable| callable.program).collect();
         let entries = needed_entries(&description, &used, &callables);
-        let depths = Depths::new(&description, &entries, ptx, &mut note)?;
+        let depths = Depths::new(&description, &entries, module.as_ref(), &mut note)?;
         if !description.callables.is_empty() {
             let unused = (0..description.callables.len()).filter(|index| !callables.contains(index));
             let unused: Vec<_> = unused.map(|index| description.callables[index].entry.function).collect();
@@ -157,16 +160,16 @@ impl Plan {
                 },
             );
         }
-        let (exceptions, why) = exceptions(&description, &entries, &depths, ptx);
+        let (exceptions, why) = exceptions(&description, &entries, &depths, module.as_ref());
         note("exceptions", exceptions.to_string(), why);
 
         for value in &bound {
             note("bound value", format!("{} = {}", value.field.name, value.value()), "bound by the host".into());
         }
 
-        let ptx = ptx.map(|text| {
-            let total = ptx::entries(text).len();
-            let kept = ptx::without_entries(text, |name| entries.iter().any(|e| e.name == name));
+        let ptx = ptx.zip(module).map(|(text, module)| {
+            let total = module.entries().count();
+            let kept = without_entries(text, &module, |name| entries.iter().any(|e| e.name == name));
             note(
                 "programs compiled",
                 format!("{} of {total}", entries.len()),
@@ -194,10 +197,13 @@ impl Plan {
     }
 }
 
+/// What the names of the device functions that throw begin with.
+const THROW: &str = "_optix_throw_exception_";
+
 /// Whether the PTX reads the launch parameters where this host writes them.
-fn check_layout(description: &PipelineDescription, text: &str) -> Result<()> {
+fn check_layout(description: &PipelineDescription, module: &Module<'_>) -> Result<()> {
     let params = &description.params;
-    match ptx::layout_fingerprint(text, params.symbol) {
+    match layout_fingerprint(module, params.symbol) {
         Some(fingerprint) if fingerprint == params.fingerprint => Ok(()),
         found => Err(Error::Pipeline {
             pipeline: description.name,
@@ -210,19 +216,38 @@ fn check_layout(description: &PipelineDescription, text: &str) -> Result<()> {
     }
 }
 
+/// The layout fingerprint that `#[launch_params]` put beside the parameter variable `symbol`; `None` where there is none.
+fn layout_fingerprint(module: &Module<'_>, symbol: &str) -> Option<u64> {
+    let variable = module.variables.iter().find(|variable| variable.name.strip_suffix("_layout") == Some(symbol))?;
+    // A number above `i64::MAX` may be written as the negative one with the same bits.
+    variable.value.parse().ok().or_else(|| variable.value.parse::<i64>().ok().map(i64::cast_unsigned))
+}
+
+/// The text of a module without the entries that `keep` says no to.
+fn without_entries(text: &str, module: &Module<'_>, keep: impl Fn(&str) -> bool) -> String {
+    let mut result = String::with_capacity(text.len());
+    let mut at = 0;
+    for entry in module.entries().filter(|entry| !keep(entry.name)) {
+        result.push_str(&text[at..entry.range.start]);
+        at = entry.range.end;
+    }
+    result.push_str(&text[at..]);
+    result
+}
+
 /// Which exceptions are raised, and why.
 fn exceptions(
     description: &PipelineDescription,
     entries: &[Reached],
     depths: &Depths,
-    ptx: Option<&str>,
+    module: Option<&Module<'_>>,
 ) -> (Exceptions, String) {
     let declared = description.exceptions;
     if !declared.are_declared() {
         return (Exceptions::default(), "the pipeline declares none".into());
     }
-    let throws = |text| reached_entries(entries, text).any(|entry| entry.text.contains("_optix_throw_exception"));
-    let user = declared.throws.is_some() && ptx.is_none_or(throws);
+    let throws = |module| entries.iter().any(|entry| entry.calls(module, |name| name.starts_with(THROW)));
+    let user = declared.throws.is_some() && module.is_none_or(throws);
     let exceptions = Exceptions { stack_overflow: true, trace_depth: depths.trace_is_a_promise, user };
     let mut reasons = Vec::new();
     if !depths.trace_is_a_promise {
@@ -243,6 +268,50 @@ fn exceptions(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const PTX: &str = "\
+.visible .const .align 8 .b8 p[16];
+.visible .global .align 8 .b64 p_layout = -2;
+.visible .global .align 8 .b64 q_layout = 12;
+.visible .entry __raygen__a()
+{
+\t// begin inline asm }
+\t{
+\tcall (%r5), _optix_trace_typed_32, (4, %rd1, f0);
+\t}
+\tret;
+}
+\t// .globl\t__miss__b
+.visible .entry __miss__b() { ret; }
+.visible .func  (.param .b32 func_retval0) helper(
+\t.param .b32 helper_param_0
+)
+;
+.visible .func  (.param .align 4 .b8 func_retval0[12]) __direct_callable__c(
+\t.param .b32 __direct_callable__c_param_0
+)
+{
+\tret;
+}
+";
+
+    #[test]
+    fn entries_are_cut_at_their_own_brace() {
+        let plain = optix_ptx::plain(PTX);
+        let module = Module::read(&plain);
+        let rest = without_entries(PTX, &module, |name| name != "__raygen__a");
+        assert!(rest.contains("p_layout") && rest.contains("q_layout = 12;\n\n\t// .globl\t__miss__b"), "{rest}");
+        let rest = without_entries(PTX, &module, |name| !name.starts_with("__direct"));
+        assert!(rest.trim_end().ends_with("helper_param_0\n)\n;"), "{rest}");
+        assert_eq!(without_entries(PTX, &module, |_| true), PTX);
+    }
+
+    #[test]
+    fn fingerprints_are_read_with_either_sign() {
+        let plain = optix_ptx::plain(PTX);
+        let fingerprint = |symbol| layout_fingerprint(&Module::read(&plain), symbol);
+        assert_eq!([fingerprint("p"), fingerprint("q"), fingerprint("r")], [Some(u64::MAX - 1), Some(12), None]);
+    }
 
     #[test]
     fn graphs_by_depth() {

@@ -2,56 +2,30 @@
 
 use std::collections::HashMap;
 
-/// The entries of a PTX text, callables included: name and body, in the order of the text.
-///
-/// ```
-/// let ptx = ".visible .entry __raygen__a()\n{\n\tret;\n\n}\n\
-///            .visible .func  (.param .b32 func_retval0) __direct_callable__b(\n\t.param .b32 a\n)\n{\n\texit;\n\n}\n";
-/// let expected = [("__raygen__a", "\n\tret;\n"), ("__direct_callable__b", "\n\texit;\n")];
-/// assert_eq!(optix_golden_tests::entries(ptx), expected);
-/// ```
-pub fn entries(ptx: &str) -> Vec<(&str, &str)> {
-    let entry = |text: &'_ str| -> Option<(usize, usize, usize, usize)> {
-        let (open, close) = (text.find("\n{\n")?, text.find("\n}")?);
-        let name = text[..open].find("__")?;
-        Some((name, name + text[name..open].find('(')?, open + 2, close))
-    };
-    let is_entry = |text: &&str| text.starts_with("entry ") || text.starts_with("func ");
-    let texts = ptx.split(".visible .").skip(1).filter(is_entry);
-    texts
-        .filter_map(|text| entry(text).map(|(name, end, begin, close)| (&text[name..end], &text[begin..close])))
-        .collect()
-}
+use optix_ptx::{Function, Statement};
 
-/// The instructions and labels of a body in order, one per line. Registers and labels are numbered by their first
+/// The instructions and labels of a function in order, one per line. Registers and labels are numbered by their first
 /// appearance, the parameters' variable is `params`, and declarations, comments, blocks and white space are left out.
 ///
 /// ```
-/// let body = "\t.reg .b32 %r<9>;\n\tld.const.b32 %r7, [frame+4]; // a field\n$L__BB3_2:\n\tadd.s32 \t%r8, %r7, %r7;\n";
-/// let lines = optix_golden_tests::normalised(body, "frame");
+/// let text = ".entry x()\n{\n\t.reg .b32 %r<9>;\n\tld.const.b32 %r7, [frame+4];\n$L__BB3_2:\n\tadd.s32 \t%r8, %r7, %r7;\n}\n";
+/// let module = optix_ptx::Module::read(text);
+/// let lines = optix_golden_tests::normalised(&module.functions[0], "frame");
 /// assert_eq!(lines, ["ld.const.b32 %r0, [params+4]", "L0:", "add.s32 %r1, %r0, %r0"]);
 /// ```
-pub fn normalised(body: &str, params: &str) -> Vec<String> {
-    let code: String =
-        body.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n");
+pub fn normalised(function: &Function<'_>, params: &str) -> Vec<String> {
     let mut names = Names::default();
-    let mut lines = Vec::new();
-    for statement in code.split(';') {
-        let mut words: Vec<&str> = statement.split_whitespace().collect();
-        while let Some(word) = words.first() {
-            if let Some(label) = word.strip_suffix(':') {
-                lines.push(format!("{}:", names.of(label, "L")));
-            } else if !matches!(*word, "{" | "}") {
-                // A brace before a statement is of a block; those of operands are within one.
-                break;
-            }
-            words.remove(0);
+    let line = |statement: &Statement<'_>| match statement {
+        Statement::Label(label) => Some(format!("{}:", names.of(label, "L"))),
+        Statement::Directive(_) => None,
+        Statement::Instruction(instruction) => {
+            let guard = if instruction.guard.is_empty() { String::new() } else { format!("@{} ", instruction.guard) };
+            let text = format!("{guard}{} {}", instruction.op, instruction.operands);
+            let words: Vec<&str> = text.split_whitespace().collect();
+            Some(names.replaced(&words.join(" "), params))
         }
-        if words.first().is_some_and(|word| !word.starts_with('.')) {
-            lines.push(names.replaced(&words.join(" "), params));
-        }
-    }
-    lines
+    };
+    function.statements().iter().filter_map(line).collect()
 }
 
 /// The instructions of [`normalised`] lines without order: sorted, each register by its class only, labels left out.
@@ -131,18 +105,20 @@ impl Names {
 mod tests {
     use super::*;
 
+    fn lines(body: &str) -> Vec<String> {
+        normalised(&optix_ptx::Module::read(&format!(".entry x()\n{{\n{body}\n}}\n")).functions[0], "p")
+    }
+
     #[test]
     fn layout_of_inline_assembly_does_not_matter() {
-        let a = normalised("{ .reg .f32 f; call (f), x, (); mov.b32 %r9, f; }\n\tst.v2.b32 [%rd1], {%r9, %r9};", "p");
-        let b =
-            normalised("{\n.reg .f32 f;\ncall (f), x, ();\nmov.b32 %r1, f;\n}\n\tst.v2.b32 \t[%rd5], {%r1, %r1};", "p");
+        let a = lines("{ .reg .f32 f; call (f), x, (); mov.b32 %r9, f; }\n\tst.v2.b32 [%rd1], {%r9, %r9};");
+        let b = lines("{\n.reg .f32 f;\ncall (f), x, ();\nmov.b32 %r1, f;\n}\n\tst.v2.b32 \t[%rd5], {%r1, %r1};");
         assert_eq!(a, b);
         assert_eq!(a, ["call (f), x, ()", "mov.b32 %r0, f", "st.v2.b32 [%rd0], {%r0, %r0}"]);
     }
 
     #[test]
     fn other_registers_and_instructions_do_matter() {
-        let lines = |text| normalised(text, "p");
         assert_ne!(lines("add.s32 %r1, %r2, %r3;"), lines("add.s32 %r1, %r2, %r2;"));
         assert_ne!(lines("add.s32 %r1, %r2, %r3;"), lines("sub.s32 %r1, %r2, %r3;"));
         assert_eq!(lines("@%p3 bra $L__BB1_2;\n$L__BB1_2:\n\tret;"), ["@%p0 bra L0", "L0:", "ret"]);

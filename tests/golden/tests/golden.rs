@@ -2,7 +2,8 @@
 //!
 //! `OPTIX_GOLDEN=write cargo test -p optix-golden-tests` writes `expected/` anew.
 
-use optix_golden_tests::{entries, multiset, normalised};
+use optix_golden_tests::{multiset, normalised};
+use optix_ptx::Module;
 use optix_toolchain::{Built, DeviceCompiler, Shaders};
 use std::fmt::Write;
 use std::fs;
@@ -49,21 +50,21 @@ fn typed(built: &Built, program: &str) -> Vec<String> {
     // `__raygen__index` is `__raygen__Golden_index_..`.
     let begin = program.rfind("__").expect("an entry's name") + 2;
     let prefix = format!("{}Golden_{}_", &program[..begin], &program[begin..]);
-    let found: Vec<_> = entries(&built.text).into_iter().filter(|(name, _)| name.starts_with(&prefix)).collect();
-    // `ball` is the beginning of `ball_shade` too, but that is of another kind.
-    assert_eq!(found.len(), 1, "{prefix}");
-    normalised(found[0].1, symbol(built))
+    only(built, |name| name.starts_with(&prefix), &prefix)
 }
 
 fn raw(built: &Built, program: &str) -> Vec<String> {
-    let body = entries(&built.text).into_iter().find(|(name, _)| *name == program).expect(program).1;
-    normalised(body, symbol(built))
+    only(built, |name| name == program, program)
 }
 
-/// The variable of the parameters.
-fn symbol(built: &Built) -> &str {
-    let declared = built.text.lines().find(|line| line.starts_with(".visible .const")).expect("parameters");
-    declared.split_whitespace().last().and_then(|name| name.split('[').next()).expect("a name")
+/// The code of the only entry with such a name: `ball` is the beginning of `ball_shade` too, but that is of another kind.
+fn only(built: &Built, is_it: impl Fn(&str) -> bool, what: &str) -> Vec<String> {
+    let text = optix_ptx::plain(&built.text);
+    let module = Module::read(&text);
+    let found: Vec<_> = module.entries().filter(|entry| is_it(entry.name)).collect();
+    assert_eq!(found.len(), 1, "{what}");
+    let params = module.variables.iter().find(|variable| variable.space == "const").expect("parameters");
+    normalised(found[0], params.name)
 }
 
 #[test]

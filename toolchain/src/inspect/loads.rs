@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::ptx::body::{Body, Instruction, Statement, operands};
+use optix_ptx::{Function, Instruction, Statement, operands};
 
 /// Load instructions and the bytes that they load.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -15,22 +15,22 @@ pub struct Loads {
 
 impl Loads {
     /// From constant memory, where nothing but launch parameters lies.
-    pub(super) fn of_parameters(body: &Body<'_>) -> Self {
-        Self::of(body, |load| load.op.starts_with("ld.const."))
+    pub(super) fn of_parameters(function: &Function<'_>) -> Self {
+        Self::of(function, |load| load.op.starts_with("ld.const."))
     }
 
     /// Through the record's pointer, and what is computed from it.
-    pub(super) fn of_record(body: &Body<'_>) -> Self {
-        let pointers = record_pointers(body);
-        Self::of(body, |load| {
+    pub(super) fn of_record(function: &Function<'_>) -> Self {
+        let pointers = record_pointers(function);
+        Self::of(function, |load| {
             let address = operands(load.operands).get(1).copied().unwrap_or_default();
             words(address).any(|register| pointers.contains(register))
         })
     }
 
-    fn of(body: &Body<'_>, wanted: impl Fn(&Instruction<'_>) -> bool) -> Self {
+    fn of(function: &Function<'_>, wanted: impl Fn(&Instruction<'_>) -> bool) -> Self {
         let mut loads = Self::default();
-        for instruction in instructions(body) {
+        for instruction in instructions(function) {
             if instruction.op.starts_with("ld") && wanted(instruction) {
                 loads.count += 1;
                 loads.bytes += bytes(instruction.op);
@@ -40,8 +40,8 @@ impl Loads {
     }
 }
 
-fn instructions<'b, 'a>(body: &'b Body<'a>) -> impl Iterator<Item = &'b Instruction<'a>> {
-    body.statements.iter().filter_map(|statement| match statement {
+fn instructions<'b, 'a>(function: &'b Function<'a>) -> impl Iterator<Item = &'b Instruction<'a>> {
+    function.statements().iter().filter_map(|statement| match statement {
         Statement::Instruction(instruction) => Some(instruction),
         _ => None,
     })
@@ -49,11 +49,11 @@ fn instructions<'b, 'a>(body: &'b Body<'a>) -> impl Iterator<Item = &'b Instruct
 
 /// The registers that may hold an address in the record: the result of the call, and what moves, additions and
 /// conversions make of it.
-fn record_pointers<'a>(body: &Body<'a>) -> HashSet<&'a str> {
+fn record_pointers<'a>(function: &Function<'a>) -> HashSet<&'a str> {
     let mut pointers = HashSet::new();
     loop {
         let before = pointers.len();
-        for instruction in instructions(body) {
+        for instruction in instructions(function) {
             let operands = operands(instruction.operands);
             let Some((target, sources)) = operands.split_first() else { continue };
             let is_pointer = match instruction.op.split('.').next() {

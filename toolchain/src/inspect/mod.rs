@@ -29,8 +29,9 @@ pub use loads::Loads;
 pub use pairs::pairs;
 pub use source::with_source;
 
-use crate::ptx::body::{self, Body, Statement};
-use crate::ptx::calls::{calls, demangled};
+use optix_ptx::{Function, Module, Statement};
+
+use crate::ptx::demangled;
 
 /// A device program, or a function that is called instead of inlined.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,7 +40,7 @@ pub struct Program {
     pub name: String,
     /// Whether it is an entry.
     pub is_entry: bool,
-    /// Bytes of PTX, without comments.
+    /// Bytes of PTX between its braces, without comments.
     pub size: usize,
     /// Instructions as written, by class. Loops count once.
     pub classes: BTreeMap<Class, usize>,
@@ -64,31 +65,31 @@ impl Program {
         self.classes.get(&class).copied().unwrap_or(0)
     }
 
-    fn of(body: &Body<'_>) -> Self {
+    fn of(function: &Function<'_>) -> Self {
         let mut classes = BTreeMap::new();
-        for statement in &body.statements {
+        for statement in function.statements() {
             if let Statement::Instruction(instruction) = statement {
                 *classes.entry(Class::of(instruction.op)).or_default() += 1;
             }
         }
         let mut called = BTreeMap::new();
-        for call in calls(body) {
+        for call in function.calls() {
             *called.entry(demangled(call.function)).or_default() += 1;
         }
         Self {
-            name: demangled(body.name),
-            is_entry: body.is_entry,
-            size: body.text.len(),
+            name: demangled(function.name),
+            is_entry: function.is_entry,
+            size: function.body().lines().map(|line| line.trim_end().len() + 1).sum(),
             classes,
             calls: called,
-            local_memory: body.local_memory().unwrap_or(0),
-            parameters: Loads::of_parameters(body),
-            record: Loads::of_record(body),
+            local_memory: function.local_memory().unwrap_or(0),
+            parameters: Loads::of_parameters(function),
+            record: Loads::of_record(function),
         }
     }
 }
 
 /// The entries and functions of a PTX text, in its order.
 pub fn programs(ptx: &str) -> Vec<Program> {
-    body::bodies(&body::plain(ptx)).iter().map(Program::of).collect()
+    Module::read(&optix_ptx::plain(ptx)).defined().map(Program::of).collect()
 }

@@ -15,10 +15,11 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use optix_ptx::{Instruction, Module, Parts, Statement, operands};
+
 use crate::error::{Doing, Error};
 use crate::nvvm;
-use crate::ptx::body::{self, Instruction, Statement, operands};
-use crate::ptx::calls::{demangled, parts};
+use crate::ptx::demangled;
 use crate::util;
 
 /// What `ptxas` says of a program on one architecture.
@@ -132,12 +133,12 @@ const STAND_IN_BYTES: usize = 512;
 
 /// The module with every call of OptiX replaced, and without debug information.
 fn stand_in(ptx: &str) -> String {
-    let plain = body::plain(ptx);
+    let plain = optix_ptx::plain(ptx);
     let mut text = String::with_capacity(plain.len());
     let mut copied = 0;
-    for body in body::bodies(&plain) {
+    for function in Module::read(&plain).defined() {
         let mut registers = Registers::default();
-        for statement in &body.statements {
+        for statement in function.statements() {
             match statement {
                 Statement::Directive(directive) => registers.declare(directive),
                 Statement::Instruction(call) => {
@@ -176,7 +177,7 @@ fn stand_in(ptx: &str) -> String {
 ///
 /// None if it is another instruction.
 fn stand_in_of(call: &Instruction<'_>, registers: &Registers<'_>) -> Option<String> {
-    let parts = parts(call).filter(|parts| parts.function.starts_with("_optix_"))?;
+    let parts = Parts::of(call).filter(|parts| parts.function.starts_with("_optix_"))?;
     let guard = if call.guard.is_empty() { String::new() } else { format!("@{} ", call.guard) };
     let mut lines = Vec::new();
     for (i, argument) in parts.arguments.iter().enumerate() {

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use crate::ptx::body::{self, Statement};
-use crate::ptx::calls::demangled;
+use optix_ptx::{Module, Statement};
+
+use crate::ptx::demangled;
 
 /// The instructions of each program that `wanted` says yes to, each run of them below the source line it was made from.
 /// `None`: the PTX has no line information.
@@ -17,17 +18,17 @@ pub fn with_source(ptx: &str, wanted: impl Fn(&str) -> bool) -> Option<String> {
         return None;
     }
     let mut sources = Sources { files, texts: HashMap::new() };
-    let plain = body::plain(ptx);
+    let plain = optix_ptx::plain(ptx);
     let mut text = String::new();
-    for body in body::bodies(&plain) {
-        let name = demangled(body.name);
+    for function in Module::read(&plain).defined() {
+        let name = demangled(function.name);
         if !wanted(&name) {
             continue;
         }
         let _ = writeln!(text, "{name}");
         let mut shown = None;
         let mut next = None;
-        for statement in &body.statements {
+        for statement in function.statements() {
             match statement {
                 Statement::Directive(directive) => next = location(directive).or(next),
                 // Labels of debug information, to which nothing jumps.

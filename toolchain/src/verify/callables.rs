@@ -1,10 +1,10 @@
 //! Calls of callables, and throwing: that only programs do so that may (guide 13).
 
-use super::code::Function;
+use optix_ptx::{Call, Function};
+
 use super::facts::{Kind, Pipeline, Program};
 use super::finding::{Finding, Rule};
-use crate::ptx::calls::Call;
-
+use super::place;
 const DIRECT: &str = "_optix_call_direct_callable";
 const CONTINUATION: &str = "_optix_call_continuation_callable";
 const THROW: &str = "_optix_throw_exception_";
@@ -21,7 +21,7 @@ pub(super) fn check(
     item: &str,
     findings: &mut Vec<Finding>,
 ) {
-    for call in &function.calls {
+    for call in function.calls() {
         let allowed = match call.function {
             DIRECT => program.kind != Kind::Exception,
             // The same programs: both suspend the caller.
@@ -29,7 +29,7 @@ pub(super) fn check(
             name if name.starts_with(THROW) => program.kind != Kind::Exception,
             _ => continue,
         };
-        let mut error = |message: &str| findings.push(Finding::error(Rule::Callable, function.place(item), message));
+        let mut error = |message: &str| findings.push(Finding::error(Rule::Callable, place(function, item), message));
         let (does, is_throw) = match call.function {
             DIRECT => ("calls a direct callable", false),
             CONTINUATION => ("calls a continuation callable", false),

@@ -20,7 +20,6 @@
 //! Arguments of calls are followed to the constants they come from; one that is not a constant is a finding too.
 
 mod callables;
-mod code;
 mod entries;
 mod facts;
 mod finding;
@@ -34,14 +33,15 @@ mod trace;
 
 use std::path::Path;
 
+use optix_ptx::{Function, Module};
+
 pub use facts::{Field, Kind, Params, Pipeline, Program, Ray};
 pub use finding::{Finding, Level, Rule};
 
 use crate::device_build::{Built, Session};
 use crate::error::Error;
 use crate::options::Shaders;
-use crate::ptx::{Module, body};
-use code::Code;
+use crate::ptx;
 
 /// A shader crate, compiled and compared with its pipelines.
 #[derive(Clone, Debug)]
@@ -83,20 +83,19 @@ impl Shaders {
 /// ```
 pub fn check(text: &str, pipelines: &[Pipeline], allowed: &[String]) -> Vec<Finding> {
     let mut findings = Vec::new();
-    if let Err(problem) = Module::read(text) {
+    let text = optix_ptx::plain(text);
+    let module = Module::read(&text);
+    if let Err(problem) = ptx::check(&module) {
         findings.push(Finding::error(Rule::Module, "the module", problem.to_string()));
     }
-    let text = body::plain(text);
-    let bodies = body::bodies(&text);
-    let code = Code::new(&bodies);
-    entries::check(&code, pipelines, &mut findings);
+    entries::check(&module, pipelines, &mut findings);
     for pipeline in pipelines {
         let others = pipelines.iter().filter(|other| other.params.symbol != pipeline.params.symbol);
         let others: Vec<&Pipeline> = others.collect();
-        params::check(&text, pipeline, &mut findings);
+        params::check(&module, pipeline, &mut findings);
         for program in &pipeline.programs {
             let item = program.item(pipeline);
-            let reached = code.reached(&program.entry);
+            let reached = module.reached(&program.entry);
             for function in &reached {
                 params::check_loads(function, pipeline, &others, &item, &mut findings);
                 payload::check_words(function, program, pipeline, &item, &mut findings);
@@ -108,7 +107,7 @@ pub fn check(text: &str, pipelines: &[Pipeline], allowed: &[String]) -> Vec<Find
             }
         }
     }
-    functions::check(&code, pipelines, allowed, &mut findings);
+    functions::check(&module, pipelines, allowed, &mut findings);
     // A function that several programs call, or one program several times, would say the same again.
     let mut seen = Vec::new();
     findings.retain(|finding| {
@@ -119,4 +118,13 @@ pub fn check(text: &str, pipelines: &[Pipeline], allowed: &[String]) -> Vec<Find
         new
     });
     findings
+}
+
+/// The item with a function that it reaches, if that is not its own entry.
+fn place(function: &Function<'_>, item: &str) -> String {
+    if function.is_entry {
+        item.to_string()
+    } else {
+        format!("{item}, in `{}`, which it calls", ptx::demangled(function.name))
+    }
 }

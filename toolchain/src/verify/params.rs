@@ -1,47 +1,37 @@
 //! Launch parameters: the variable, and that they are read field by field.
 
-use super::code::Function;
+use optix_ptx::{Function, Instruction, Module, Statement, Variable, operands};
+
 use super::facts::{Field, Params, Pipeline};
 use super::finding::{Finding, Rule};
-use crate::ptx::body::{Instruction, Statement, operands};
-
+use super::place;
 /// The largest field that is loaded directly; beyond, the number of instructions is no longer worth it.
 const LARGEST_DIRECT: usize = 128;
 
 /// The variable is there once, as large and as aligned as the struct.
-pub(super) fn check(text: &str, pipeline: &Pipeline, findings: &mut Vec<Finding>) {
+pub(super) fn check(module: &Module<'_>, pipeline: &Pipeline, findings: &mut Vec<Finding>) {
     let params = &pipeline.params;
     let mut error = |message: String| {
         let item = format!("launch parameters `{}` of `{}`", params.name, pipeline.name);
         findings.push(Finding::error(Rule::ParamsSymbol, item, message));
     };
-    let declared: Vec<_> = text.lines().filter_map(|line| declaration(line, &params.symbol)).collect();
+    let is_it = |variable: &&Variable<'_>| variable.space == "const" && variable.name == params.symbol;
+    let declared: Vec<_> = module.variables.iter().filter(is_it).collect();
     match declared[..] {
         [] => error(format!("there is no constant-memory variable `{}`", params.symbol)),
-        [(align, size)] => {
+        [one] => {
+            let of = |number: Option<usize>| number.map_or("no".into(), |number| number.to_string());
+            let size = one.count.filter(|_| one.kind == "b8");
             // A variable has at least one byte.
-            if size != params.size.max(1) {
-                error(format!("the PTX has {size} bytes for them, the host {}", params.size));
+            if size != Some(params.size.max(1)) {
+                error(format!("the PTX has {} bytes for them, the host {}", of(size), params.size));
             }
-            if align != params.align {
-                error(format!("the PTX aligns them to {align} bytes, the host to {}", params.align));
+            if one.align != Some(params.align) {
+                error(format!("the PTX aligns them to {} bytes, the host to {}", of(one.align), params.align));
             }
         }
         _ => error(format!("the variable `{}` is declared {} times", params.symbol, declared.len())),
     }
-}
-
-/// Alignment and size in `.visible .const .align 8 .b8 symbol[160];`
-fn declaration(line: &str, symbol: &str) -> Option<(usize, usize)> {
-    let (before, rest) = line.trim().split_once(symbol)?;
-    let mut words = before.split_whitespace();
-    if !before.starts_with('.') || !before.contains(".const") || !before.ends_with(".b8 ") {
-        return None;
-    }
-    words.find(|word| *word == ".align")?;
-    let align = words.next()?.parse().ok()?;
-    let size = rest.strip_prefix('[')?.split(']').next()?.parse().ok()?;
-    Some((align, size))
 }
 
 /// What a function does with the variable is loading fields, directly.
@@ -52,15 +42,15 @@ pub(super) fn check_loads(
     item: &str,
     findings: &mut Vec<Finding>,
 ) {
-    for statement in &function.body.statements {
+    for statement in function.statements() {
         let Statement::Instruction(instruction) = statement else { continue };
         if mentions(instruction.operands, &pipeline.params.symbol) {
-            findings.extend(check_use(instruction, &pipeline.params, &function.place(item)));
+            findings.extend(check_use(instruction, &pipeline.params, &place(function, item)));
         }
         for other in others.iter().filter(|other| mentions(instruction.operands, &other.params.symbol)) {
             findings.push(Finding::error(
                 Rule::ParamsLoad,
-                function.place(item),
+                place(function, item),
                 format!("uses the launch parameters `{}`, which are those of `{}`", other.params.name, other.name),
             ));
         }

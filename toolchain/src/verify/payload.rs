@@ -1,8 +1,10 @@
 //! Payloads: the type that a program announces, and the words it gets and sets.
 
-use super::code::Function;
+use optix_ptx::Function;
+
 use super::facts::{Pipeline, Program};
 use super::finding::{Finding, Rule};
+use super::place;
 
 const SET_TYPES: &str = "_optix_set_payload_types";
 const GET: &str = "_optix_get_payload";
@@ -18,7 +20,7 @@ pub(super) fn check_type(
 ) {
     let mut error = |message: String| findings.push(Finding::error(Rule::PayloadType, item, message));
     let is_payload_call = |name: &str| matches!(name, SET_TYPES | GET | SET);
-    let calls: Vec<_> = entry.calls.iter().filter(|call| is_payload_call(call.function)).collect();
+    let calls: Vec<_> = entry.calls().iter().filter(|call| is_payload_call(call.function)).collect();
     let announced: Vec<_> = calls.iter().filter(|call| call.function == SET_TYPES).collect();
     let Some(ray) = program.ray else {
         if !announced.is_empty() {
@@ -60,10 +62,10 @@ pub(super) fn check_words(
     item: &str,
     findings: &mut Vec<Finding>,
 ) {
-    let calls = function.calls.iter().filter(|call| matches!(call.function, GET | SET));
+    let calls = function.calls().iter().filter(|call| matches!(call.function, GET | SET));
     for call in calls {
         let mut error =
-            |message: String| findings.push(Finding::error(Rule::PayloadWord, function.place(item), message));
+            |message: String| findings.push(Finding::error(Rule::PayloadWord, place(function, item), message));
         let (verb, participle) = if call.function == GET { ("gets", "read") } else { ("sets", "written") };
         let ray = program.ray.and_then(|ray| pipeline.rays.get(ray));
         let (Some(ray), Some((read, write))) = (ray, program.kind.semantics()) else {

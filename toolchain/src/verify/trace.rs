@@ -1,10 +1,10 @@
 //! Trace calls: that everything in them follows from the ray type.
 
-use super::code::Function;
+use optix_ptx::{Call, Function};
+
 use super::facts::{Pipeline, Program};
 use super::finding::{Finding, Rule};
-use crate::ptx::calls::Call;
-
+use super::place;
 const TRACE: &str = "_optix_trace_typed_32";
 
 /// Positions of `_optix_trace_typed_32`'s arguments; before the offset are type, handle, nine numbers of the ray, mask
@@ -23,8 +23,8 @@ pub(super) fn check(
     item: &str,
     findings: &mut Vec<Finding>,
 ) {
-    for call in function.calls.iter().filter(|call| call.function.starts_with("_optix_trace")) {
-        let mut error = |message: String| findings.push(Finding::error(Rule::Trace, function.place(item), message));
+    for call in function.calls().iter().filter(|call| call.function.starts_with("_optix_trace")) {
+        let mut error = |message: String| findings.push(Finding::error(Rule::Trace, place(function, item), message));
         if !program.kind.may_trace() {
             error("traces a ray, which OptiX does not allow in a program of its kind".into());
         }
@@ -40,7 +40,7 @@ pub(super) fn check(
 
 /// Bytes of payloads that the function keeps in its local memory, for the rays that it traces with a pointer to theirs.
 pub(super) fn payload_memory(function: &Function<'_>, pipeline: &Pipeline) -> usize {
-    let calls = function.calls.iter().filter(|call| call.function == TRACE);
+    let calls = function.calls().iter().filter(|call| call.function == TRACE);
     let rays = calls.filter_map(|call| pipeline.rays.get(call.values.get(TYPE).copied()??.trailing_zeros() as usize));
     rays.map(|ray| (ray.memory_words * 4).next_multiple_of(16)).sum()
 }
