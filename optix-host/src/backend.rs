@@ -4,7 +4,7 @@
 use crate::Result;
 use crate::pipeline::Plan;
 use crate::sbt::ShaderBindingTable;
-use crate::scene::GeometryData;
+use crate::scene::{GeometryData, InstanceFlags};
 use optix_device_rs::host::{DeviceId, GeometryKind, Memory};
 use std::any::Any;
 use std::sync::Arc;
@@ -61,7 +61,7 @@ pub(crate) struct InstanceInput {
     pub transform: [f32; 12],
     pub id: u32,
     pub mask: u8,
-    pub flags: u32,
+    pub flags: InstanceFlags,
     pub sbt_offset: u32,
     pub child: BuiltAccel,
 }

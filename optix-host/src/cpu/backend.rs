@@ -69,7 +69,7 @@ impl Backend for CpuBackend {
                 instance_id: instance.id,
                 sbt_offset: instance.sbt_offset,
                 visibility_mask: instance.mask,
-                flags: kernel::InstanceFlags(instance.flags),
+                flags: instance.flags,
                 child,
             })
         });

@@ -2,10 +2,9 @@
 
 use super::driver::{
     self, AabbInput, Accel, AccelOptions, BoundValue, Context, ContextOptions, DebugLevel, DeviceBuffer, Entry,
-    GeometryFlags, Indices, Instance, InstanceFlags, Intersection, LaunchArgs, LinkOptions, Module, ModuleOptions,
-    PayloadSemantics, PayloadType, Pipeline, PipelineOptions, PrimitiveKinds, ProgramGroup, Programs, Records,
-    SbtIndices, SbtSection, SbtSections, ShaderBindingTable as DeviceTable, Source, TraversableGraph, TriangleInput,
-    stack::CallDepths,
+    GeometryFlags, Indices, Instance, Intersection, LaunchArgs, LinkOptions, Module, ModuleOptions, PayloadSemantics,
+    PayloadType, Pipeline, PipelineOptions, PrimitiveKinds, ProgramGroup, Programs, Records, SbtIndices, SbtSection,
+    SbtSections, ShaderBindingTable as DeviceTable, Source, TraversableGraph, TriangleInput, stack::CallDepths,
 };
 use super::feedback;
 use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, InstanceInput, Linked, Running, next_device_id};
@@ -86,7 +85,7 @@ impl Backend for OptixBackend {
                 id: instance.id,
                 sbt_offset: instance.sbt_offset,
                 visibility_mask: instance.mask,
-                flags: InstanceFlags::from_bits(instance.flags),
+                flags: instance.flags,
                 ..Instance::of(child)
             })
         });

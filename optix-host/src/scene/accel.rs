@@ -1,6 +1,6 @@
 //! Acceleration structures: geometry (GAS) and instances (IAS) (guide 5).
 
-use super::{Geometry, GeometryData, Scene};
+use super::{Geometry, GeometryData, InstanceFlags, Scene};
 use crate::backend::{BuildInput, BuiltAccel, GasInput, InstanceInput};
 use crate::{Error, Result};
 use glam::Affine3A;
@@ -57,35 +57,6 @@ pub(crate) struct AccelShared {
     pub slots: u32,
     /// Keeps the children alive.
     _children: Vec<Arc<AccelShared>>,
-}
-
-/// `OptixInstanceFlags` (guide 5.4).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct InstanceFlags(u32);
-
-impl InstanceFlags {
-    /// No flag.
-    pub const NONE: Self = Self(0);
-    /// Rays don't cull faces of this instance's triangles.
-    pub const DISABLE_TRIANGLE_FACE_CULLING: Self = Self(1);
-    /// Front and back are exchanged.
-    pub const FLIP_TRIANGLE_FACING: Self = Self(2);
-    /// No any-hit calls; a ray may override.
-    pub const DISABLE_ANYHIT: Self = Self(4);
-    /// Any-hit calls where geometry disables them; a ray may override.
-    pub const ENFORCE_ANYHIT: Self = Self(8);
-
-    /// Bits of `OptixInstanceFlags`.
-    pub const fn bits(self) -> u32 {
-        self.0
-    }
-}
-
-impl core::ops::BitOr for InstanceFlags {
-    type Output = Self;
-    fn bitor(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
 }
 
 /// A structure placed in an IAS.
@@ -280,7 +251,7 @@ impl<P: Pipeline> IasBuilder<'_, P> {
                 transform: core::array::from_fn(|k| rows[k]),
                 id: instance.id,
                 mask: instance.mask,
-                flags: instance.flags.bits(),
+                flags: instance.flags,
                 sbt_offset,
                 child: child.built.clone(),
             });

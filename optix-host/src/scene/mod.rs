@@ -2,12 +2,14 @@
 
 mod accel;
 mod callable;
+mod flags;
 mod geometry;
 mod material;
 
 pub(crate) use accel::AccelShared;
-pub use accel::{Accel, GasBuilder, GasMember, IasBuilder, Instance, InstanceFlags};
+pub use accel::{Accel, GasBuilder, GasMember, IasBuilder, Instance};
 pub(crate) use callable::{CallableShared, CallableState};
+pub use flags::InstanceFlags;
 pub(crate) use geometry::GeometryData;
 pub use geometry::{Aabb, Boxes, Geometry, GeometryError, TriangleMesh};
 pub use material::Material;

@@ -1,6 +1,6 @@
 //! Geometry, instance and ray flags, and what they say together about any-hit programs and face culling.
 
-use std::ops::BitOr;
+use crate::scene::InstanceFlags;
 
 /// Flags of the primitives that map to one SBT record (`OptixGeometryFlags`, guide §5.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -11,30 +11,6 @@ pub struct GeometryFlags {
     pub require_single_anyhit_call: bool,
     /// Triangles are hit from both sides, whatever cull flags the ray has.
     pub disable_triangle_face_culling: bool,
-}
-
-/// Flags of an instance (`OptixInstanceFlags`, guide §5.4). Those of the innermost instance count; its parents' do not.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct InstanceFlags(pub u32);
-
-impl InstanceFlags {
-    pub const NONE: Self = Self(0);
-    pub const DISABLE_TRIANGLE_FACE_CULLING: Self = Self(1);
-    pub const FLIP_TRIANGLE_FACING: Self = Self(2);
-    pub const DISABLE_ANYHIT: Self = Self(4);
-    pub const ENFORCE_ANYHIT: Self = Self(8);
-
-    pub fn contains(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
-    }
-}
-
-impl BitOr for InstanceFlags {
-    type Output = Self;
-
-    fn bitor(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
 }
 
 /// The bits of `OptixRayFlags` (guide §13.2).

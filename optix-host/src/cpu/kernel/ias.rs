@@ -5,9 +5,9 @@ use std::sync::Arc;
 use super::aabb::Aabb;
 use super::bvh::Bvh;
 use super::error::BuildError;
-use super::flags::InstanceFlags;
 use super::gas::{Gas, SINGLE_LEAF};
 use super::transform::Affine;
+use crate::scene::InstanceFlags;
 
 /// A structure that rays are traced against.
 #[derive(Debug)]

@@ -32,7 +32,7 @@ mod tests;
 
 pub use aabb::Aabb;
 pub use error::BuildError;
-pub use flags::{GeometryFlags, InstanceFlags, Verdict, any_hit_verdict, ray_flags};
+pub use flags::{GeometryFlags, Verdict, any_hit_verdict, ray_flags};
 pub use gas::{AabbInput, Gas, SbtMapping, TriangleInput};
 pub use ias::{Accel, Ias, Instance, MAX_GRAPH_DEPTH, Placed};
 pub use path::InstancePath;

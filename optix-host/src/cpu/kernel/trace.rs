@@ -1,7 +1,7 @@
 //! Traversal.
 
 use super::bvh::{Bvh, Child, Lanes, WIDTH};
-use super::flags::{InstanceFlags, Verdict, any_hit_verdict, face_culled};
+use super::flags::{Verdict, any_hit_verdict, face_culled};
 use super::gas::{Content, Gas, block_of};
 use super::ias::{Accel, Ias};
 use super::path::InstancePath;
@@ -13,6 +13,7 @@ use super::simd::{Portable, Simd, Task};
 use super::stack::{Entry, Stack};
 use super::state::{Found, State, sbt_index};
 use super::triangle::{self, Block, TriangleHit};
+use crate::scene::InstanceFlags;
 
 /// Hit kinds of triangles (`OptixHitKind`).
 pub const FRONT_FACE: u8 = 254;

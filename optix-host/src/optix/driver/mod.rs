@@ -40,8 +40,8 @@ use std::any::Any;
 use std::sync::Arc;
 
 pub use accel::{
-    AabbInput, Accel, AccelOptions, GeometryFlags, Indices, Instance, InstanceFlags, Motion, Preference, Records,
-    SbtIndices, Source, Traversable, TriangleInput,
+    AabbInput, Accel, AccelOptions, GeometryFlags, Indices, Instance, Motion, Preference, Records, SbtIndices, Source,
+    Traversable, TriangleInput,
 };
 pub use buffer::DeviceBuffer;
 pub use context::{Context, ContextOptions, DiskCache};

@@ -9,6 +9,7 @@ mod watertight;
 use std::sync::Arc;
 
 use super::*;
+use crate::scene::InstanceFlags;
 
 /// Programs that take everything.
 pub struct Opaque;

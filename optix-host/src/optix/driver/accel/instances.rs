@@ -7,36 +7,17 @@ use super::super::sys;
 use super::build::{RawInput, build};
 use super::source::{Source, Staging};
 use super::{Accel, AccelOptions, Traversable};
+use crate::scene::InstanceFlags;
 
-/// What holds for all primitives below an instance (guide §5.4). A set, joined with [`Self::with`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct InstanceFlags(u32);
-
-impl InstanceFlags {
-    /// Nothing special.
-    pub const NONE: Self = Self(sys::OptixInstanceFlags::NONE.0);
-    /// Triangles are never culled by their facing, whatever the ray says.
-    pub const DISABLE_TRIANGLE_FACE_CULLING: Self = Self(sys::OptixInstanceFlags::DISABLE_TRIANGLE_FACE_CULLING.0);
-    /// Front and back of triangles change places.
-    pub const FLIP_TRIANGLE_FACING: Self = Self(sys::OptixInstanceFlags::FLIP_TRIANGLE_FACING.0);
-    /// Any-hit programs don't run, unless the ray enforces them.
-    pub const DISABLE_ANYHIT: Self = Self(sys::OptixInstanceFlags::DISABLE_ANYHIT.0);
-    /// Any-hit programs run, unless the ray disables them.
-    pub const ENFORCE_ANYHIT: Self = Self(sys::OptixInstanceFlags::ENFORCE_ANYHIT.0);
-    /// Unknown states of opacity micromaps count as the known ones.
-    pub const FORCE_OPACITY_MICROMAP_2_STATE: Self = Self(sys::OptixInstanceFlags::FORCE_OPACITY_MICROMAP_2_STATE.0);
-
-    /// The flags of these bits, as in [`sys::OptixInstanceFlags`].
-    pub fn from_bits(bits: u32) -> Self {
-        Self(bits)
-    }
-
-    /// Both together.
-    #[must_use]
-    pub fn with(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-}
+// The bits are OptiX's.
+const _: () = {
+    use sys::OptixInstanceFlags as Raw;
+    assert!(InstanceFlags::NONE.bits() == Raw::NONE.0);
+    assert!(InstanceFlags::DISABLE_TRIANGLE_FACE_CULLING.bits() == Raw::DISABLE_TRIANGLE_FACE_CULLING.0);
+    assert!(InstanceFlags::FLIP_TRIANGLE_FACING.bits() == Raw::FLIP_TRIANGLE_FACING.0);
+    assert!(InstanceFlags::DISABLE_ANYHIT.bits() == Raw::DISABLE_ANYHIT.0);
+    assert!(InstanceFlags::ENFORCE_ANYHIT.bits() == Raw::ENFORCE_ANYHIT.0);
+};
 
 /// A placed copy of a traversable (B060).
 #[derive(Clone, Debug)]
@@ -74,7 +55,7 @@ impl Instance {
             instance_id: self.id,
             sbt_offset: self.sbt_offset,
             visibility_mask: self.visibility_mask.into(),
-            flags: self.flags.0,
+            flags: self.flags.bits(),
             traversable_handle: self.traversable.handle(),
             pad: [0; 2],
         }

@@ -16,7 +16,7 @@ use super::context::Context;
 use super::transform::Transform;
 
 pub use aabbs::AabbInput;
-pub use instances::{Instance, InstanceFlags};
+pub use instances::Instance;
 pub use options::{AccelOptions, Motion, Preference};
 pub use records::{GeometryFlags, Records, SbtIndices};
 pub use source::Source;

@@ -1,0 +1,36 @@
+//! Flags of instances.
+
+/// What holds for all primitives below an instance (`OptixInstanceFlags`, guide 5.4). A set, joined with `|`. Of nested
+/// instances the innermost one's count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct InstanceFlags(u32);
+
+impl InstanceFlags {
+    /// No flag.
+    pub const NONE: Self = Self(0);
+    /// Rays don't cull faces of this instance's triangles.
+    pub const DISABLE_TRIANGLE_FACE_CULLING: Self = Self(1);
+    /// Front and back are exchanged.
+    pub const FLIP_TRIANGLE_FACING: Self = Self(2);
+    /// No any-hit calls; a ray may override.
+    pub const DISABLE_ANYHIT: Self = Self(4);
+    /// Any-hit calls where geometry disables them; a ray may override.
+    pub const ENFORCE_ANYHIT: Self = Self(8);
+
+    /// Bits of `OptixInstanceFlags`.
+    pub const fn bits(self) -> u32 {
+        self.0
+    }
+
+    /// Whether all flags of the other are among these.
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+}
+
+impl core::ops::BitOr for InstanceFlags {
+    type Output = Self;
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
