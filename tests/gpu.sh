@@ -4,7 +4,8 @@
 #   tests/gpu.sh          on the machine that builds: makes the folder bundle/
 #   bundle/run.sh [OUT]   on the machine with the GPU, from a copy of that folder: runs all of it, writes to OUT
 #
-# Both machines are Linux of the same architecture, and the second one's glibc is no older.
+# Both machines are Linux of the same architecture, and the second one's glibc is no older. With NVCC=.../nvcc the test of maths
+# measures CUDA C++'s functions too.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

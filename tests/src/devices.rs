@@ -27,3 +27,16 @@ pub fn all(test: &str) -> Vec<Device> {
     devices.extend(optix(test));
     devices
 }
+
+/// Whether there is a GPU for plain CUDA kernels; otherwise says why not. With `OPTIX_TEST_GPU=1` there must be.
+pub fn cuda(test: &str) -> bool {
+    match optix_host::optix::driver::devices() {
+        Ok(devices) if !devices.is_empty() => true,
+        other => {
+            let why = other.map_or_else(|error| error.to_string(), |_| "no GPU".into());
+            assert!(std::env::var_os("OPTIX_TEST_GPU").is_none_or(|v| v != "1"), "{test} is to run on a GPU: {why}");
+            println!("{test}: not run on a GPU, {}", why.lines().next().unwrap_or_default());
+            false
+        }
+    }
+}

@@ -3,12 +3,11 @@
 //! Contraction is off, so that rounding is the same everywhere. A plain CUDA kernel runs them, without OptiX; where there is no
 //! GPU that half does not run, and says so, and the CPU's half only runs the functions.
 
-use std::ffi::{CString, c_void};
-
-use cudarc::driver::result::{self, DriverError};
-use cudarc::driver::{CudaContext, DevicePtr, DevicePtrMut};
+use cudarc::driver::{CudaContext, DriverError, LaunchConfig, PushKernelArg};
+use cudarc::nvrtc::Ptx;
 use differential_functions::{FUNCTIONS, call};
 use optix_device_rs::rng::Pcg32;
+use optix_tests::devices;
 
 /// What makes the PTX, and the PTX; empty where it was not there when the tests were compiled.
 const GENERATORS: [(&str, &str); 2] = [
@@ -38,42 +37,16 @@ fn on_cpu(inputs: &[[u64; 4]]) -> Vec<u64> {
 
 fn on_gpu(ptx: &str, inputs: &[[u64; 4]]) -> Result<Vec<u64>, DriverError> {
     let context = CudaContext::new(0)?;
-    context.bind_to_thread()?;
     let stream = context.default_stream();
-    let words: Vec<u64> = inputs.iter().flatten().copied().collect();
-    let from = stream.clone_htod(&words)?;
+    let kernel = context.load_module(Ptx::from_src(ptx))?.load_function("differential")?;
+    let from = stream.clone_htod(inputs)?;
     let mut to = stream.alloc_zeros::<u64>(FUNCTIONS as usize * inputs.len())?;
-    let mut count = inputs.len() as u32;
-    let image = CString::new(ptx).expect("PTX is text");
-    {
-        let (mut from, _read) = from.device_ptr(&stream);
-        let (mut to, _written) = to.device_ptr_mut(&stream);
-        let mut arguments: [*mut c_void; 3] = [(&raw mut from).cast(), (&raw mut to).cast(), (&raw mut count).cast()];
-        // SAFETY: the text ends with a zero; the kernel has these parameters, and stays within `count` inputs and
-        // `FUNCTIONS * count` outputs, which live until the stream is through.
-        unsafe {
-            let module = result::module::load_data(image.as_ptr().cast())?;
-            let kernel = result::module::get_function(module, c"differential".to_owned())?;
-            let grid = (count.div_ceil(128), FUNCTIONS, 1);
-            result::launch_kernel(kernel, grid, (128, 1, 1), 0, stream.cu_stream(), &mut arguments)?;
-        }
-        stream.synchronize()?;
-    }
+    let count = inputs.len() as u32;
+    let grid =
+        LaunchConfig { grid_dim: (count.div_ceil(128), FUNCTIONS, 1), block_dim: (128, 1, 1), shared_mem_bytes: 0 };
+    // SAFETY: the kernel has these parameters, and stays within `count` inputs and `FUNCTIONS * count` outputs.
+    unsafe { stream.launch_builder(&kernel).arg(&from).arg(&mut to).arg(&count).launch(grid)? };
     stream.clone_dtoh(&to)
-}
-
-/// Whether a CUDA GPU is there; with `OPTIX_TEST_GPU=1` it must be.
-fn gpu(test: &str) -> bool {
-    let devices = optix_host::optix::driver::devices();
-    match devices {
-        Ok(devices) if !devices.is_empty() => true,
-        other => {
-            let why = other.map_or_else(|error| error.to_string(), |_| "no GPU".into());
-            assert!(std::env::var_os("OPTIX_TEST_GPU").is_none_or(|v| v != "1"), "{test} is to run on a GPU: {why}");
-            println!("{test}: not run on a GPU, {}", why.lines().next().unwrap_or_default());
-            false
-        }
-    }
 }
 
 #[test]
@@ -81,7 +54,7 @@ fn both_generators_and_the_cpu_compute_the_same() {
     let test = "both_generators_and_the_cpu_compute_the_same";
     let inputs = inputs();
     let expected = on_cpu(&inputs);
-    let there = gpu(test);
+    let there = devices::cuda(test);
     for (generator, ptx) in GENERATORS {
         if ptx.is_empty() {
             println!("{test}: {generator} not run, it was not there when this was compiled");

@@ -1,55 +1,255 @@
-//! The error of the device's maths where it runs: of every `f32` on a GPU, of a sample of them on the CPU, whose functions are
-//! the standard library's.
+//! The error of the device's maths on a GPU: at every `f32` for functions of one argument, at 2^32 pairs for those of two;
+//! what each code generator makes, beside libdevice and, where nvcc was there when this was compiled, CUDA C++.
 //!
-//! The GPU's figures are those of docs/maths.md.
+//! The figures are those of docs/maths.md. `cargo test -p optix-toolchain --test maths` tries the same functions on the CPU.
 
-use maths_shaders::{FUNCTIONS, Maths, MathsFrameHost, Measure, Worst};
-use optix_host::{BackendKind, Device, Pipeline, Scene};
+use std::sync::Arc;
+
+use cudarc::driver::{
+    CudaContext, CudaFunction, CudaModule, CudaSlice, CudaStream, DriverError, LaunchConfig, PushKernelArg,
+};
+use cudarc::nvrtc::Ptx;
+use maths_kernels::table::{Bound, Function, TABLE};
+use maths_kernels::{Measure, Worst};
 use optix_tests::devices;
 
-const PTX: &str = optix_host::ptx!(maths_shaders);
+/// What makes kernels, and its PTX; empty where it was not there when the tests were compiled.
+const GENERATORS: [(&str, &str); 3] = [
+    ("rustc", include_str!(concat!(env!("OUT_DIR"), "/maths.rustc.ptx"))),
+    ("libNVVM", include_str!(concat!(env!("OUT_DIR"), "/maths.nvvm.ptx"))),
+    ("nvcc", include_str!(concat!(env!("OUT_DIR"), "/maths.nvcc.ptx"))),
+];
 
-/// The worst of a function on a device, of `launches * count` arguments that are `stride` apart.
-fn sweep(device: &Device, pipeline: &Pipeline<Maths>, function: u32, launches: u32, count: u32, stride: u32) -> Worst {
-    let worst = device.zeroed(launches as usize).unwrap();
-    let frame = MathsFrameHost { worst: worst.clone(), function, count, stride };
-    pipeline.launch(&frame, [launches, 1, 1]).unwrap().wait().unwrap();
-    let found = worst.read().unwrap();
-    found.into_iter().fold(Worst { error: 0.0, at: 0, correct: 0, tried: 0 }, |a, b| {
-        let (error, at) = if b.error > a.error { (b.error, b.at) } else { (a.error, a.at) };
-        // All 2^32 are one more than fits, but no function of all of them is correctly rounded everywhere.
-        Worst { error, at, correct: a.correct.wrapping_add(b.correct), tried: a.tried.wrapping_add(b.tried) }
-    })
+/// Arguments at a time.
+const CHUNK: u32 = 1 << 26;
+/// Threads of a launch, each of which takes many arguments.
+const GRID: LaunchConfig = LaunchConfig { grid_dim: (1 << 9, 1, 1), block_dim: (1 << 8, 1, 1), shared_mem_bytes: 0 };
+
+/// A kernel's values, and an error that is stated for them.
+struct Question {
+    /// `sin precise libdevice libNVVM`.
+    name: String,
+    /// The number in [`GENERATORS`].
+    generator: usize,
+    kernel: String,
+    bound: Bound,
+}
+
+/// What there is to ask of a function, kernel after kernel.
+fn questions(function: &Function) -> Vec<Question> {
+    let mut questions = Vec::new();
+    let mut ask = |what: &str, generator: usize, prefix: &str, bounds: &[Bound]| {
+        let (maker, ptx) = GENERATORS[generator];
+        let kernel = format!("{prefix}_{}", function.name);
+        if ptx.is_empty() || bounds.is_empty() {
+            return;
+        }
+        assert!(ptx.contains(&format!(".entry {kernel}(")), "{maker} made no {kernel}");
+        let name = format!("{} {what} {maker}", function.name);
+        questions.extend(bounds.iter().map(|&bound| Question {
+            name: name.clone(),
+            generator,
+            kernel: kernel.clone(),
+            bound,
+        }));
+    };
+    for generator in [0, 1] {
+        ask("precise", generator, "ours", function.precise);
+        ask("fast", generator, "fast", function.fast);
+    }
+    ask("precise libdevice", 1, "libdevice", function.cuda);
+    ask("precise CUDA", 2, "cuda", function.cuda);
+    ask("fast CUDA", 2, "cuda_fast", function.cuda_fast);
+    questions
+}
+
+/// What was found at all arguments: more of them than a thread's [`Worst`] counts.
+#[derive(Default)]
+struct Found {
+    worst: Worst,
+    correct: u64,
+    tried: u64,
+}
+
+impl Found {
+    fn by_threads(threads: Vec<[u32; 5]>) -> Self {
+        threads.into_iter().fold(Self::default(), |mut found, [error, x, y, correct, tried]| {
+            let error = f32::from_bits(error);
+            if error > found.worst.error {
+                found.worst = Worst { error, at: [x, y], correct, tried };
+            }
+            found.correct += u64::from(correct);
+            found.tried += u64::from(tried);
+            found
+        })
+    }
+
+    /// Prints it, and gives whether it is within the bound.
+    fn report(&self, function: &Function, question: &Question) -> bool {
+        let (bound, error) = (question.bound, f64::from(self.worst.error));
+        let [x, y] = self.worst.at;
+        let at = match function.pairs {
+            false => format!("{x:#010x} = {:?}", f32::from_bits(x)),
+            true => format!("({x:#010x}, {y:#010x}) = {:?}", [x, y].map(f32::from_bits)),
+        };
+        let (max, limit) = match bound.measure {
+            Measure::Ulps => (format!("{error:.4} ulp"), format!("{:.2}", bound.limit)),
+            measure => (format!("2^{:.2} {measure:?}", error.log2()).to_lowercase(), format!("2^{:.2}", bound.limit)),
+        };
+        let range =
+            if bound.high < f32::INFINITY { format!(" from {} to {}", bound.low, bound.high) } else { String::new() };
+        let share = 100.0 * self.correct as f64 / self.tried as f64;
+        let missed = if error > bound.error() { ", MISSED" } else { "" };
+        println!(
+            "maths: {}{range} max {max} at {at}; correctly rounded {share:.3} % of {}; bound {limit}{missed}",
+            question.name, self.tried
+        );
+        missed.is_empty()
+    }
+}
+
+struct Gpu {
+    stream: Arc<CudaStream>,
+    /// None where there is no PTX.
+    modules: Vec<Option<Arc<CudaModule>>>,
+    arguments: CudaSlice<[f32; 2]>,
+    values: CudaSlice<f32>,
+    exact: CudaSlice<f64>,
+}
+
+impl Gpu {
+    fn new() -> Result<Self, DriverError> {
+        let context = CudaContext::new(0)?;
+        let stream = context.default_stream();
+        let load = |(_, ptx): (&str, &str)| {
+            if ptx.is_empty() { Ok(None) } else { context.load_module(Ptx::from_src(ptx)).map(Some) }
+        };
+        Ok(Self {
+            modules: GENERATORS.into_iter().map(load).collect::<Result<_, _>>()?,
+            arguments: stream.alloc_zeros(CHUNK as usize)?,
+            values: stream.alloc_zeros(CHUNK as usize)?,
+            exact: stream.alloc_zeros(CHUNK as usize)?,
+            stream,
+        })
+    }
+
+    fn kernel(&self, generator: usize, name: &str) -> Result<CudaFunction, DriverError> {
+        self.modules[generator].as_ref().expect("only what there is PTX of is asked for").load_function(name)
+    }
+
+    /// Answers to questions on a function.
+    fn answers(&mut self, function: &Function, questions: &[Question]) -> Result<Vec<Found>, DriverError> {
+        let (fill, compare) = (self.kernel(0, "arguments")?, self.kernel(0, "compare")?);
+        let exact = self.kernel(0, &format!("exact_{}", function.name))?;
+        let kernels: Vec<_> =
+            questions.iter().map(|q| self.kernel(q.generator, &q.kernel)).collect::<Result<_, _>>()?;
+        // A `Worst` for each thread and question.
+        let threads = (GRID.grid_dim.0 * GRID.block_dim.0) as usize;
+        let mut worst = Vec::new();
+        for _ in questions {
+            worst.push(self.stream.alloc_zeros::<[u32; 5]>(threads)?);
+        }
+        for first in (0..1u64 << 32).step_by(CHUNK as usize) {
+            let pairs = u32::from(function.pairs);
+            // SAFETY: these are the kernels' parameters, and every buffer has as many elements as they are told.
+            unsafe {
+                let mut launch = self.stream.launch_builder(&fill);
+                launch.arg(&mut self.arguments).arg(&CHUNK).arg(&first).arg(&pairs).launch(GRID)?;
+                let mut launch = self.stream.launch_builder(&exact);
+                launch.arg(&self.arguments).arg(&mut self.exact).arg(&CHUNK).launch(GRID)?;
+            }
+            for (i, (question, worst)) in questions.iter().zip(&mut worst).enumerate() {
+                let Bound { measure, low, high, .. } = question.bound;
+                // SAFETY: as above; a `Worst` is as many words, and zeros are one.
+                unsafe {
+                    if i == 0 || questions[i - 1].name != question.name {
+                        let mut launch = self.stream.launch_builder(&kernels[i]);
+                        launch.arg(&self.arguments).arg(&mut self.values).arg(&CHUNK).launch(GRID)?;
+                    }
+                    let mut launch = self.stream.launch_builder(&compare);
+                    launch.arg(&self.arguments).arg(&self.values).arg(&self.exact).arg(&CHUNK);
+                    launch.arg(&(measure as u32)).arg(&low).arg(&high).arg(worst).launch(GRID)?;
+                }
+            }
+        }
+        worst.iter().map(|worst| Ok(Found::by_threads(self.stream.clone_dtoh(worst)?))).collect()
+    }
 }
 
 #[test]
 fn errors_are_below_their_bounds() {
+    let test = "errors_are_below_their_bounds";
+    let asked: Vec<_> = TABLE.iter().map(|function| (function, questions(function))).collect();
+    for (maker, ptx) in GENERATORS {
+        if ptx.is_empty() {
+            println!("{test}: {maker} not run, it was not there when this was compiled");
+        }
+    }
+    // The first one's PTX has what is exact.
+    if GENERATORS[0].1.is_empty() || !devices::cuda(test) {
+        return;
+    }
+    let mut gpu = Gpu::new().unwrap();
     let mut missed = Vec::new();
-    for device in devices::all("errors_are_below_their_bounds") {
-        let pipeline = Pipeline::for_scene(&Scene::<Maths>::new(&device)).ptx(PTX).build().unwrap();
-        let (launches, count, stride) = match device.kind() {
-            BackendKind::Cpu => (1 << 10, 1 << 6, 65_537),
-            _ => (1 << 20, 1 << 12, 1),
-        };
-        for (number, function) in (0..).zip(FUNCTIONS) {
-            let worst = sweep(&device, &pipeline, number, launches, count, stride);
-            let (x, unit) = (f32::from_bits(worst.at), if function.measure == Measure::Ulps { "ulp" } else { "" });
-            let tried = if worst.tried == 0 { 1u64 << 32 } else { u64::from(worst.tried) };
-            let correct = 100.0 * f64::from(worst.correct) / tried as f64;
-            let error = if unit.is_empty() { format!("2^{:.2}", worst.error.log2()) } else { worst.error.to_string() };
-            println!(
-                "{:?} {:12} {:?} error {error} {unit} at {x:?} (bound {:e}); {correct:.3} % of {tried} correctly rounded",
-                device.kind(),
-                function.name,
-                function.measure,
-                function.bound
-            );
-            // The bounds are of the device's functions; a C library's may be off by more.
-            let of_host = device.kind() == BackendKind::Cpu && function.measure == Measure::Ulps;
-            if worst.error > if of_host { function.bound.max(2.5) } else { function.bound } {
-                missed.push((device.kind(), function.name, worst));
+    for (function, questions) in asked {
+        for (found, question) in gpu.answers(function, &questions).unwrap().iter().zip(questions) {
+            if !found.report(function, &question) {
+                missed.push(question.name);
             }
         }
     }
     assert!(missed.is_empty(), "{missed:#?}");
+}
+
+/// The text of a kernel.
+fn body<'a>(ptx: &'a str, kernel: &str) -> &'a str {
+    let (_, rest) = ptx.split_once(&format!(".entry {kernel}(")).unwrap_or_else(|| panic!("there is no {kernel}"));
+    rest.split_once("\n}").expect("it ends").0
+}
+
+/// Kernels of glam's functions and of `f32`'s methods, with their square roots and their divisions or reciprocals.
+const LIBRARY: [(&str, usize, usize); 19] = [
+    ("glam_length", 1, 0),
+    ("glam_distance", 1, 0),
+    ("glam_normalize", 1, 1),
+    ("glam_normalize_or_zero", 1, 1),
+    ("glam_quat_normalize", 1, 1),
+    ("glam_quat_rotate", 0, 0),
+    ("glam_quat_from_axis_angle", 0, 0),
+    ("glam_quat_slerp", 2, 1),
+    ("glam_from_angle", 0, 0),
+    ("glam_angle_between", 2, 1),
+    ("glam_refract", 1, 0),
+    ("glam_mat4_inverse", 0, 1),
+    ("glam_powf", 0, 4),
+    ("glam_floor", 0, 0),
+    ("method_sqrt", 1, 0),
+    ("method_floor", 0, 0),
+    ("method_mul_add", 0, 0),
+    ("method_sin", 0, 0),
+    ("method_sin_cos", 0, 0),
+];
+
+#[test]
+fn libraries_are_made_of_instructions() {
+    for (maker, ptx) in GENERATORS.into_iter().take(2).filter(|(_, ptx)| !ptx.is_empty()) {
+        for (kernel, roots, divisions) in LIBRARY {
+            let body = body(ptx, kernel);
+            let count = |operation: &str| body.matches(operation).count();
+            assert_eq!(count("sqrt.rn.f32"), roots, "{maker}: square roots of {kernel}");
+            assert_eq!(count("rcp.rn.f32") + count("div.rn.f32"), divisions, "{maker}: divisions of {kernel}");
+            assert!(!body.contains(".f64") && !body.contains(".local"), "{maker}: {kernel} is of f32, in registers");
+            // Angles beyond 65,536 are reduced out of line.
+            let mut called = body.split("call.uni").skip(1).map(|call| call.split(';').next().unwrap_or_default());
+            assert!(called.all(|call| call.contains("reduce_large")), "{maker}: {kernel} calls nothing else");
+        }
+        for (kernel, instruction) in [
+            ("glam_floor", "cvt.rmi"),
+            ("method_floor", "cvt.rmi"),
+            ("method_mul_add", "fma.rn.f32"),
+            ("method_sin", "fma.rn.f32"),
+        ] {
+            assert!(body(ptx, kernel).contains(instruction), "{maker}: {kernel} has {instruction}");
+        }
+    }
 }

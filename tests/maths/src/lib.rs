@@ -1,13 +1,19 @@
-//! A device program that measures the error of the device's maths, over every `f32`.
-#![no_std]
+//! Kernels that measure the error of the device's maths: one fills in arguments, one for each function computes values, one the
+//! exact ones in `f64`, and one compares. What makes the PTX of the values makes nothing else of a measurement.
+#![cfg_attr(target_arch = "nvptx64", no_std)]
 
-mod reference;
-
-use optix_device_rs::math::fast;
-use optix_device_rs::prelude::*;
+#[cfg(target_arch = "nvptx64")]
+mod device;
+#[cfg(all(target_arch = "nvptx64", feature = "harness"))]
+mod harness;
+#[cfg(target_arch = "nvptx64")]
+mod library;
+#[cfg(not(target_arch = "nvptx64"))]
+pub mod table;
 
 /// How an error is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
 pub enum Measure {
     /// In units of the last place that an `f32` has at the true value.
     Ulps,
@@ -17,167 +23,140 @@ pub enum Measure {
     Relative,
 }
 
-/// What one launch index found.
-#[derive(Clone, Copy, Debug, PartialEq, Element)]
+/// What one thread found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Worst {
     /// The largest error.
     pub error: f32,
-    /// The bits of the argument that it is at.
-    pub at: u32,
+    /// The bits of the arguments that it is at.
+    pub at: [u32; 2],
     /// How many results are the `f32` nearest to the true value.
     pub correct: u32,
     /// How many arguments were tried.
     pub tried: u32,
 }
 
-/// The launch parameters.
-#[launch_params]
-pub struct MathsFrame {
-    /// One per launch index.
-    pub worst: SliceMut<Worst>,
-    /// The index in [`FUNCTIONS`].
-    pub function: u32,
-    /// A launch index tries this many bit patterns ..
-    pub count: u32,
-    /// .. from its number times `count` on, this far apart.
-    pub stride: u32,
-}
-
-/// A function and what is expected of it.
-#[derive(Clone, Copy, Debug)]
-pub struct Function {
-    /// Its name: `sin`, or `fast::sin`.
-    pub name: &'static str,
-    /// How its error is measured.
-    pub measure: Measure,
-    /// Arguments of a magnitude outside of this range are passed over.
-    pub range: (f32, f32),
-    /// The largest error that is stated for it.
-    pub bound: f32,
-}
-
-/// All arguments.
-const ALL: (f32, f32) = (0.0, f32::INFINITY);
-const TWO_PI: (f32, f32) = (0.0, core::f32::consts::TAU);
-const NORMAL: (f32, f32) = (f32::MIN_POSITIVE, 8.5e37);
-
-macro_rules! functions {
-    ($($name:literal $measure:ident $range:expr, $bound:expr, $ours:expr, $exact:expr;)*) => {
-        /// What is measured. Functions of two arguments get one from [`partner`].
-        pub const FUNCTIONS: &[Function] =
-            &[$(Function { name: $name, measure: Measure::$measure, range: $range, bound: $bound }),*];
-
-        /// Measures the function that the launch parameters name.
-        #[raygen]
-        pub fn sweep(rg: &RayGen<Maths>) {
-            let function = rg.params().function();
-            let mut index = 0;
-            $(
-                if function == index {
-                    measure(rg, Measure::$measure, $range, $ours, $exact);
-                }
-                index += 1;
-            )*
-            let _ = index;
-        }
-    };
-}
-
-functions! {
-    "sin" Ulps ALL, 1.6, Math::sin, |x| reference::sin(x as f64);
-    "cos" Ulps ALL, 1.6, Math::cos, |x| reference::cos(x as f64);
-    "tan" Ulps ALL, 2.6, Math::tan, |x| reference::tan(x as f64);
-    "asin" Ulps ALL, 2.0, Math::asin, |x| reference::asin(x as f64);
-    "acos" Ulps ALL, 1.5, Math::acos, |x| reference::acos(x as f64);
-    "atan" Ulps ALL, 1.5, Math::atan, |x| reference::atan(x as f64);
-    "exp" Ulps ALL, 1.0, Math::exp, |x| reference::exp(x as f64);
-    "exp2" Ulps ALL, 0.9, Math::exp2, |x| reference::exp2(x as f64);
-    "ln" Ulps ALL, 0.9, Math::ln, |x| reference::log(x as f64);
-    "log2" Ulps ALL, 0.9, Math::log2, |x| reference::log2(x as f64);
-    "log10" Ulps ALL, 0.9, Math::log10, |x| reference::log10(x as f64);
-    "sinh" Ulps ALL, 1.7, Math::sinh, |x| reference::sinh(x as f64);
-    "cosh" Ulps ALL, 1.5, Math::cosh, |x| reference::cosh(x as f64);
-    "tanh" Ulps ALL, 1.5, Math::tanh, |x| reference::tanh(x as f64);
-    "cbrt" Ulps ALL, 0.6, Math::cbrt, |x| reference::cbrt(x as f64);
-    "sqrt" Ulps ALL, 0.501, Math::sqrt, |x| reference::sqrt(x as f64);
-    "powf" Ulps ALL, 1.3, |x| Math::powf(x, partner(x)), |x| reference::pow(x as f64, partner(x) as f64);
-    "atan2" Ulps ALL, 2.0, |x| Math::atan2(x, partner(x)), |x| reference::atan2(x as f64, partner(x) as f64);
-    "hypot" Ulps ALL, 0.6, |x| Math::hypot(x, partner(x)), |x| reference::hypot(x as f64, partner(x) as f64);
-    "fast::sin" Absolute TWO_PI, 6.743_496e-7, fast::sin, |x| reference::sin(x as f64);
-    "fast::cos" Absolute TWO_PI, 6.743_496e-7, fast::cos, |x| reference::cos(x as f64);
-    "fast::exp2" Relative (0.0, 125.0), 2.384_185_8e-7, fast::exp2, |x| reference::exp2(x as f64);
-    "fast::exp" Relative (0.0, 1.0), 4.768_371_6e-7, fast::exp, |x| reference::exp(x as f64);
-    "fast::log2" Absolute (0.5, 2.0), 2.384_185_8e-7, |x: f32| fast::log2(x.abs()), |x: f32| reference::log2(x.abs() as f64);
-    "fast::tanh" Absolute ALL, 9.536_743e-7, fast::tanh, |x| reference::tanh(x as f64);
-    "fast::recip" Ulps NORMAL, 1.0, fast::recip, |x| 1.0 / x as f64;
-    "fast::sqrt" Relative NORMAL, 1.192_092_9e-7, |x: f32| fast::sqrt(x.abs()), |x: f32| reference::sqrt(x.abs() as f64);
-    "fast::rsqrt" Relative NORMAL, 1.277_660_4e-7, |x: f32| fast::rsqrt(x.abs()), |x: f32| 1.0 / reference::sqrt(x.abs() as f64);
-}
-
-/// A second argument for `x`: any bits, or every other time a number between 2^-16 and 2^16.
-pub fn partner(x: f32) -> f32 {
-    let hash = (x.to_bits() ^ 0x9e37_79b9).wrapping_mul(0x85eb_ca6b);
-    let hash = (hash ^ hash >> 15).wrapping_mul(0xc2b2_ae35);
-    let bits = hash ^ hash >> 13;
-    f32::from_bits(if hash & 0x40 == 0 { bits } else { bits & 0x80ff_ffff | 0x3000_0000 | (bits >> 3 & 0x0f00_0000) })
-}
-
-#[inline(always)]
-fn measure(
-    rg: &RayGen<Maths>,
-    measure: Measure,
-    range: (f32, f32),
-    ours: impl Fn(f32) -> f32,
-    exact: impl Fn(f32) -> f64,
-) {
-    let (index, count, stride) = (rg.launch_index().x, rg.params().count(), rg.params().stride());
-    let mut worst = Worst { error: 0.0, at: 0, correct: 0, tried: 0 };
-    let mut i = 0;
-    while i < count {
-        let bits = index.wrapping_mul(count).wrapping_add(i).wrapping_mul(stride);
-        let x = f32::from_bits(bits);
-        i += 1;
-        // A NaN is within `ALL`.
-        let outside = x.abs() < range.0 || x.abs() > range.1;
-        if outside {
-            continue;
-        }
-        let (value, exact) = (ours(x), exact(x));
+impl Worst {
+    /// One more result.
+    pub fn add(&mut self, measure: Measure, arguments: [f32; 2], value: f32, exact: f64) {
         let error = error(measure, value, exact);
-        worst.tried += 1;
-        worst.correct += u32::from(value == exact as f32 || value.is_nan() && exact.is_nan());
-        if error > worst.error {
-            (worst.error, worst.at) = (error, bits);
+        self.tried += 1;
+        self.correct += u32::from(value == exact as f32 || value.is_nan() && exact.is_nan());
+        if error > self.error {
+            (self.error, self.at) = (error, arguments.map(f32::to_bits));
         }
     }
-    rg.params().worst().set(index, worst);
+
+    /// What another one found as well.
+    pub fn merge(&mut self, other: Self) {
+        if other.error > self.error {
+            (self.error, self.at) = (other.error, other.at);
+        }
+        self.tried += other.tried;
+        self.correct += other.correct;
+    }
 }
 
-/// The error of `value`. Infinity stands for 2^128 where a finite number belongs; a NaN in the wrong place is infinitely far.
+/// The error of `value`. From 2^128 on a number stands for infinity; a NaN in the wrong place is infinitely far.
 fn error(measure: Measure, value: f32, exact: f64) -> f32 {
     const LEAST: u64 = (1023 - 126) << 52;
-    const INFINITE: f64 = 340_282_366_920_938_463_463_374_607_431_768_211_456.0;
-    if exact.is_nan() || value.is_nan() || exact.is_infinite() {
-        let same = exact.is_nan() && value.is_nan() || value as f64 == exact;
-        return if same { 0.0 } else { f32::INFINITY };
+    const GREATEST: u64 = (1023 + 127) << 52;
+    const INFINITY: f64 = 340_282_366_920_938_463_463_374_607_431_768_211_456.0;
+    if exact.is_nan() || value.is_nan() {
+        return if exact.is_nan() && value.is_nan() { 0.0 } else { f32::INFINITY };
     }
-    let value = (value as f64).clamp(-INFINITE, INFINITE);
-    let distance = (value - exact.clamp(-INFINITE, INFINITE)).abs();
+    let distance = ((value as f64).clamp(-INFINITY, INFINITY) - exact.clamp(-INFINITY, INFINITY)).abs();
     let unit = match measure {
-        Measure::Ulps => f64::from_bits((exact.to_bits() & 0x7ff0_0000_0000_0000).max(LEAST) - (23 << 52)),
+        Measure::Ulps => f64::from_bits((exact.to_bits() & 0x7ff0_0000_0000_0000).clamp(LEAST, GREATEST) - (23 << 52)),
         Measure::Absolute => 1.0,
         Measure::Relative => exact.abs().max(f64::MIN_POSITIVE),
     };
     (distance / unit) as f32
 }
 
-pipeline! {
-    /// Measures functions.
-    pub struct Maths {
-        params: MathsFrame,
-        raygen: [sweep],
-        rays: {},
-        hitgroups: {},
+/// Numbers where functions are special, of either sign.
+const SPECIAL: [f32; 22] = [
+    0.0,
+    1e-45,
+    f32::MIN_POSITIVE,
+    1e-20,
+    0.1,
+    0.333_333_34,
+    0.5,
+    0.999_999_94,
+    1.0,
+    1.000_000_1,
+    1.5,
+    2.0,
+    3.0,
+    127.0,
+    128.0,
+    149.0,
+    16_777_215.0,
+    16_777_216.0,
+    1e20,
+    f32::MAX,
+    f32::INFINITY,
+    f32::NAN,
+];
+
+/// The pair of arguments of this number: first all pairs of special numbers, then random ones, by turns of any bits, of numbers
+/// between 2^-16 and 2^16, and of one near 1 with one between 1 and 2^24, where a power is most sensitive.
+pub fn pair(number: u64) -> [f32; 2] {
+    const SIGNED: u64 = 2 * SPECIAL.len() as u64;
+    if number < SIGNED * SIGNED {
+        let special = |i: u64| if i & 1 == 0 { SPECIAL[i as usize / 2] } else { -SPECIAL[i as usize / 2] };
+        return [special(number / SIGNED), special(number % SIGNED)];
+    }
+    // splitmix64
+    let hash = number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let hash = (hash ^ hash >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let hash = (hash ^ hash >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    let hash = hash ^ hash >> 31;
+    let halves = [hash as u32, (hash >> 32) as u32];
+    match number % 3 {
+        0 => halves.map(f32::from_bits),
+        1 => halves.map(|bits| f32::from_bits(bits & 0x80ff_ffff | 0x3000_0000 | (bits >> 3 & 0x0f00_0000))),
+        _ => {
+            let near_1 = 0x3f7f_0000 + (halves[0] & 0x1_ffff);
+            let exponent = 127 + (halves[1] >> 8) % 24;
+            [
+                f32::from_bits(near_1),
+                f32::from_bits(halves[1] & 0x8000_00ff | (halves[1] & 0x7fff) << 8 | exponent << 23),
+            ]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_those_of_the_definition() {
+        let ulps = |value, exact| error(Measure::Ulps, value, exact);
+        assert_eq!((ulps(1.0, 1.0), ulps(1.0 + f32::EPSILON, 1.0)), (0.0, 1.0));
+        assert_eq!((ulps(0.0, f64::from(f32::from_bits(3))), ulps(0.0, 1e-60) < 1e-10), (3.0, true));
+        assert_eq!((ulps(f32::INFINITY, 1e300), ulps(f32::NEG_INFINITY, f64::NEG_INFINITY)), (0.0, 0.0));
+        assert_eq!((ulps(f32::MAX, 1e300), ulps(f32::MAX, f64::INFINITY)), (1.0, 1.0));
+        assert_eq!((ulps(1.0, 1e300) > 1e6, ulps(f32::NAN, 1.0), ulps(f32::NAN, f64::NAN)), (true, f32::INFINITY, 0.0));
+        assert_eq!(error(Measure::Absolute, 3.0, 2.5), 0.5);
+    }
+
+    #[test]
+    fn pairs_are_special_then_spread() {
+        assert_eq!(pair(0), [0.0, 0.0]);
+        assert_eq!(pair(44 * 2), [1e-45, 0.0]);
+        let exponents = |i: usize, turn: u64| {
+            let mut seen = [false; 256];
+            (1_000_000..1_030_000)
+                .filter(|n| n % 3 == turn)
+                .for_each(|n| seen[(pair(n)[i].to_bits() >> 23 & 255) as usize] = true);
+            seen.iter().filter(|seen| **seen).count()
+        };
+        assert_eq!((exponents(0, 0), exponents(1, 0)), (256, 256));
+        assert_eq!((exponents(0, 1), exponents(1, 1)), (32, 32));
+        assert_eq!((exponents(0, 2), exponents(1, 2)), (2, 24));
     }
 }
