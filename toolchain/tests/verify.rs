@@ -5,7 +5,7 @@ mod common;
 use std::path::Path;
 
 use optix_toolchain::Shaders;
-use optix_toolchain::verify::{Level, Rule, Verified, check};
+use optix_toolchain::verify::{Kind, Level, Rule, Verified, check};
 
 fn verified(path: &str) -> Verified {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
@@ -17,6 +17,7 @@ fn the_workspaces_shaders_are_sound() {
     if !common::can_compile("the_workspaces_shaders_are_sound") {
         return;
     }
+    let mut kinds = Vec::new();
     for (path, pipeline) in
         [("examples/path-tracer/shaders", "PathTracer"), ("tests/shaders", "Probe"), ("tests/golden/typed", "Golden")]
     {
@@ -25,6 +26,11 @@ fn the_workspaces_shaders_are_sound() {
         assert!(verified.pipelines.iter().any(|found| found.name == pipeline), "{path}: {:?}", verified.pipelines);
         let programs: usize = verified.pipelines.iter().map(|found| found.programs.len()).sum();
         assert_eq!(programs, verified.built.entries.len(), "{path}: each entry is compared");
+        kinds.extend(verified.pipelines.iter().flat_map(|pipeline| &pipeline.programs).map(|program| program.kind));
+    }
+    // So what the macros call each kind is what is known here.
+    for kind in Kind::ALL {
+        assert!(kinds.contains(&kind), "no shader crate above has a program of the kind {kind:?}");
     }
 }
 

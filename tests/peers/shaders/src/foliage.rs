@@ -37,10 +37,10 @@ pub struct Seen {
 /// How much of the sun is seen.
 #[derive(Payload)]
 pub struct Sun {
-    /// Product of what the leaves let through, in steps of 1/256 of what they met.
+    /// Product of the transmittances of the leaves that it met; the ray ends where that is below a hundredth.
     #[payload(write(caller, anyhit), read(anyhit, caller))]
     pub light: f32,
-    /// Whether nothing opaque was met.
+    /// Whether it got out: it met nothing opaque, and the leaves did not end it.
     #[payload(write(caller, miss), read(caller))]
     pub seen: bool,
 }
