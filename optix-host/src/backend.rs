@@ -2,7 +2,7 @@
 //! implement it and do not know each other.
 
 use crate::Result;
-use crate::pipeline::Plan;
+use crate::plan::Plan;
 use crate::sbt::ShaderBindingTable;
 use crate::scene::{GeometryData, InstanceFlags};
 use optix_device_rs::host::{DeviceId, GeometryKind, Memory};

@@ -13,6 +13,7 @@ mod device;
 mod error;
 pub mod optix;
 pub mod pipeline;
+mod plan;
 pub mod report;
 pub mod sbt;
 pub mod scene;

@@ -1,16 +1,9 @@
 //! Pipelines: specialised to a scene, built for a device, launched.
 
-mod bind;
-mod depth;
-mod explain;
-mod plan;
-
-pub(crate) use bind::BoundValue;
-pub(crate) use depth::Depths;
-pub use explain::{Explanation, Note};
-pub(crate) use plan::{Exceptions, Graph, Plan};
+pub use crate::plan::{Explanation, Note};
 
 use crate::backend::{Linked, Running};
+use crate::plan::{BoundValue, Plan};
 use crate::sbt::ShaderBindingTable;
 use crate::scene::{AccelShared, CallableShared, RecordData, Scene};
 use crate::{BackendKind, Device, Error, Result};

@@ -4,7 +4,7 @@ use super::kernel::{self, AabbInput, Accel, Gas, GeometryFlags, Ias, Instance, S
 use super::machine::{self, Job};
 use super::memory::CpuMemory;
 use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, InstanceInput, Linked, Running, next_device_id};
-use crate::pipeline::Plan;
+use crate::plan::Plan;
 use crate::sbt::ShaderBindingTable;
 use crate::scene::GeometryData;
 use crate::{Error, Result};

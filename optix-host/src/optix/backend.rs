@@ -8,7 +8,7 @@ use super::driver::{
 };
 use super::feedback;
 use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, InstanceInput, Linked, Running, next_device_id};
-use crate::pipeline::{Graph, Plan};
+use crate::plan::{Graph, Plan};
 use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
 use crate::scene::GeometryData;
 use crate::{Error, OptixOptions, Result};

@@ -1,6 +1,6 @@
 //! What the driver's compiler says of bound values (guide 6.5.1).
 
-use crate::pipeline::BoundValue;
+use crate::plan::BoundValue;
 
 /// How the driver begins a report of a load that it replaced. On the lines below are the annotation, which is the field's
 /// name, and offset and size of value and load.

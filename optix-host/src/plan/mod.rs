@@ -1,10 +1,17 @@
 //! The specialisation of a pipeline type to a scene: everything that neither needs is left out.
 
-use super::depth::{Depths, Reached, needed_entries};
-use super::{BoundValue, Explanation, Note};
+mod bind;
+mod depth;
+mod explain;
+
+pub(crate) use bind::BoundValue;
+pub(crate) use depth::Depths;
+pub use explain::{Explanation, Note};
+
 use crate::scene::SceneState;
 use crate::{Error, Result};
 use core::fmt;
+use depth::{Reached, needed_entries};
 use optix_device_rs::host::{GeometryKind, PipelineDescription};
 use optix_ptx::Module;
 use std::collections::BTreeSet;

@@ -4,7 +4,7 @@
 //! consecutive hit records; a GAS knows where its first one is, and a trace call of ray type `r` uses offset `r` and
 //! stride `R`. So the guide's formula (7.3) always ends at a record of the right material, geometry and ray type.
 
-use crate::pipeline::Plan;
+use crate::plan::Plan;
 use crate::scene::{SceneState, Slot};
 use crate::{Error, Result};
 

@@ -16,7 +16,7 @@ mod handle;
 mod tests;
 mod traversal;
 
-use crate::pipeline::{Depths, Exceptions, Plan};
+use crate::plan::{Depths, Exceptions, Plan};
 use crate::sbt::ShaderBindingTable;
 use crate::{Error, Result};
 use call::Call;
