@@ -17,6 +17,10 @@ cargo test --release --package optix-tests --package optix-host --lib --tests --
     case $name in ui-* | macros-*) continue ;; esac # compile-time tests: they need Rust, and no GPU
     strip -o "bundle/tests/${name%-*}" "$executable"
 done
+tests/cust/stub.sh "${CARGO_TARGET_DIR:-target}/cuda-stub"
+cust=$(CUDA_LIBRARY_PATH=${CARGO_TARGET_DIR:-$PWD/target}/cuda-stub cargo test --release --package optix-cust-tests \
+    --features cust --test cust --no-run --message-format=json | grep -o '"executable":"[^"]*"' | cut -d'"' -f4)
+strip -o bundle/tests/cust "$cust"
 cargo build --release --package examples --package optix-toolchain --features optix-toolchain/cli
 target=${CARGO_TARGET_DIR:-target}/release
 for program in path-tracer cargo-optix; do

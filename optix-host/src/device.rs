@@ -72,9 +72,12 @@ impl Device {
 
     /// The first GPU, through OptiX, with options.
     pub fn optix_with(options: &OptixOptions) -> Result<Self> {
-        let backend = OptixBackend::new(options)?;
+        Ok(Self::on_optix(OptixBackend::new(options)?))
+    }
+
+    pub(crate) fn on_optix(backend: OptixBackend) -> Self {
         let name: Arc<str> = backend.description().into();
-        Ok(Self { backend: Arc::new(backend), kind: BackendKind::Optix, description: name.clone(), name })
+        Self { backend: Arc::new(backend), kind: BackendKind::Optix, description: name.clone(), name }
     }
 
     /// Which kind of machine it is.
@@ -114,7 +117,7 @@ impl Device {
 
     /// A two-dimensional buffer of `size[1]` rows of `size[0]` elements, all bytes zero.
     pub fn zeroed_2d<T: Element>(&self, size: [u32; 2]) -> Result<Buffer2d<T>> {
-        Ok(Buffer2d::from_buffer(self.zeroed(size[0] as usize * size[1] as usize)?, size))
+        Ok(Buffer2d::new(self.zeroed(size[0] as usize * size[1] as usize)?, size)?)
     }
 }
 

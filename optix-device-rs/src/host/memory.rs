@@ -68,6 +68,12 @@ impl<T: Element> Buffer<T> {
         Self { memory, len, elements: PhantomData }
     }
 
+    /// The allocation; for backends.
+    #[doc(hidden)]
+    pub fn memory(&self) -> &Arc<dyn Memory> {
+        &self.memory
+    }
+
     /// How many elements it has.
     pub fn len(&self) -> usize {
         self.len
@@ -127,14 +133,14 @@ impl<T> core::fmt::Debug for Buffer2d<T> {
 }
 
 impl<T: Element> Buffer2d<T> {
-    /// Rows of `size[0]` elements; for backends.
-    ///
-    /// # Panics
-    /// If the buffer is not `size[0] * size[1]` long.
-    #[doc(hidden)]
-    pub fn from_buffer(buffer: Buffer<T>, size: [u32; 2]) -> Self {
-        assert!(buffer.len() == size[0] as usize * size[1] as usize);
-        Self { buffer, size }
+    /// `size[1]` rows of `size[0]` elements: `buffer` is as long as that.
+    pub fn new(buffer: Buffer<T>, size: [u32; 2]) -> Result<Self, MemoryError> {
+        let [width, height] = size;
+        if buffer.len() as u64 != u64::from(width) * u64::from(height) {
+            let len = buffer.len();
+            return Err(MemoryError(std::format!("a buffer of {len} elements is not {width} x {height}")));
+        }
+        Ok(Self { buffer, size })
     }
 
     /// Width and height.

@@ -91,7 +91,7 @@ impl<T: Element> View for SliceMut2d<T> {
     fn of(owner: &Buffer2d<T>, keep: &mut KeepAlive) -> Self {
         keep.memory(&owner.buffer.memory);
         let [width, height] = owner.size;
-        // SAFETY: the buffer has `width * height` aligned elements (`from_buffer`), and `keep` holds it.
+        // SAFETY: the buffer has `width * height` aligned elements (`Buffer2d::new`), and `keep` holds it.
         unsafe { Self::from_raw(owner.buffer.memory.address(), width, height) }
     }
 }

@@ -19,14 +19,17 @@ use std::sync::Arc;
 /// A GPU through OptiX.
 pub(crate) struct OptixBackend {
     id: DeviceId,
-    context: Context,
+    pub(super) context: Context,
 }
 
 impl OptixBackend {
     pub fn new(options: &OptixOptions) -> Result<Self> {
         let options = ContextOptions { validation: options.validation, ..Default::default() };
-        let context = Context::new(&options).map_err(Error::NoOptix)?;
-        Ok(Self { id: next_device_id(), context })
+        Ok(Self::of(Context::new(&options).map_err(Error::NoOptix)?))
+    }
+
+    pub fn of(context: Context) -> Self {
+        Self { id: next_device_id(), context }
     }
 
     pub fn description(&self) -> String {
@@ -98,9 +101,9 @@ impl Backend for OptixBackend {
     }
 }
 
-struct OptixMemory {
-    device: DeviceId,
-    buffer: DeviceBuffer,
+pub(super) struct OptixMemory {
+    pub device: DeviceId,
+    pub buffer: DeviceBuffer,
 }
 
 fn memory_error(error: driver::Error) -> MemoryError {

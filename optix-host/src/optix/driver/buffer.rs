@@ -1,5 +1,8 @@
 //! Device memory.
 
+use std::any::Any;
+use std::sync::Arc;
+
 use cudarc::driver::result;
 use cudarc::driver::sys as cu;
 
@@ -17,6 +20,8 @@ pub struct DeviceBuffer {
     context: Context,
     address: CUdeviceptr,
     len: usize,
+    /// Whose the memory is, where it is other code's.
+    owner: Option<Arc<dyn Any + Send + Sync>>,
 }
 
 impl DeviceBuffer {
@@ -31,7 +36,40 @@ impl DeviceBuffer {
             // SAFETY: the CUDA context is current; the memory is freed by `drop` only.
             address = context.cuda("cuMemAlloc", unsafe { result::malloc_sync(len) })?;
         }
-        Ok(Self { context: context.clone(), address, len })
+        Ok(Self { context: context.clone(), address, len, owner: None })
+    }
+
+    /// Memory of other CUDA code, which `owner` keeps alive; it is not copied, and not freed here. Waits for all work of
+    /// the CUDA context, so that what was written before is there. The address is aligned as the other code's is.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] where the memory is not of this CUDA context, [`Error::Cuda`] for a fault of earlier work.
+    ///
+    /// # Safety
+    /// `len` bytes at `address` are allocated as long as `owner` lives, and `owner` gives nobody a view of them that
+    /// launches must not change.
+    pub unsafe fn of_other_code(
+        context: &Context,
+        address: CUdeviceptr,
+        len: usize,
+        owner: Arc<dyn Any + Send + Sync>,
+    ) -> Result<Self, Error> {
+        let _current = context.enter()?;
+        if len > 0 {
+            let mut home: cu::CUcontext = std::ptr::null_mut();
+            let attribute = cu::CUpointer_attribute::CU_POINTER_ATTRIBUTE_CONTEXT;
+            // SAFETY: the attribute's value is a context, for which `home` has room.
+            let result = unsafe { cu::cuPointerGetAttribute((&raw mut home).cast(), attribute, address) }.result();
+            context.cuda("cuPointerGetAttribute", result)?;
+            // Memory from a pool is of no context, but of the device.
+            if !home.is_null() && home != context.cuda_context() {
+                let remedy = "allocate it with this GPU's primary context";
+                return Err(Error::invalid("memory of other code", "it is of another CUDA context", remedy));
+            }
+        }
+        // SAFETY: the context is current.
+        context.cuda("cuCtxSynchronize", unsafe { cu::cuCtxSynchronize() }.result())?;
+        Ok(Self { context: context.clone(), address, len, owner: Some(owner) })
     }
 
     /// `len` bytes of 0.
@@ -152,8 +190,10 @@ impl Drop for DeviceBuffer {
         if let Ok(_current) = self.context.enter() {
             // Work on the stream may still use the memory. A fault shows up at the next checked call.
             let _ = self.context.synchronize();
-            // SAFETY: allocated by `new`, freed here only, and no longer in use.
-            let _ = unsafe { result::free_sync(self.address) };
+            if self.owner.is_none() {
+                // SAFETY: allocated by `new`, freed here only, and no longer in use.
+                let _ = unsafe { result::free_sync(self.address) };
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A device context: one GPU, one stream, one OptiX context, one log (guide §4).
 
+use std::any::Any;
 use std::ffi::CString;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -42,9 +43,9 @@ pub enum DiskCache {
 
 /// A GPU ready for OptiX. Cheap to clone; the objects made from it keep it alive.
 ///
-/// It uses the device's primary CUDA context, so memory of other CUDA code in the process is reachable, and one stream
-/// of its own: builds, copies and launches run in the order they were asked for. Calls leave the thread's current CUDA
-/// context as it was.
+/// It uses the device's primary CUDA context, so memory of other CUDA code in the process is reachable, and one stream,
+/// its own or other code's: builds, copies and launches run in the order they were asked for. Calls leave the thread's
+/// current CUDA context as it was.
 #[derive(Clone, Debug)]
 pub struct Context(Arc<Inner>);
 
@@ -55,6 +56,8 @@ struct Inner {
     cuda: cu::CUcontext,
     device: cu::CUdevice,
     stream: cu::CUstream,
+    /// Whose the stream is, where it is not this context's own.
+    stream_owner: Option<Arc<dyn Any + Send + Sync>>,
     info: DeviceInfo,
     limits: Limits,
     validation: bool,
@@ -80,6 +83,29 @@ impl Context {
     /// [`Error::LibraryNotFound`] naming `libcuda.so.1` or `libnvoptix.so.1`, [`Error::NoDevice`],
     /// [`Error::UnsupportedDriver`], or the driver call that failed.
     pub fn new(options: &ContextOptions) -> Result<Self, Error> {
+        Self::create(options, None)
+    }
+
+    /// As [`Self::new`], on a stream of other CUDA code, which `owner` keeps alive. What is asked for here and there runs
+    /// in the order it was asked for.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and [`Error::Invalid`] where the stream is not of the GPU's primary context.
+    ///
+    /// # Safety
+    /// The stream is live as long as `owner`.
+    pub unsafe fn on_stream(
+        options: &ContextOptions,
+        stream: sys::CUstream,
+        owner: Arc<dyn Any + Send + Sync>,
+    ) -> Result<Self, Error> {
+        Self::create(options, Some((stream, owner)))
+    }
+
+    fn create(
+        options: &ContextOptions,
+        other: Option<(sys::CUstream, Arc<dyn Any + Send + Sync>)>,
+    ) -> Result<Self, Error> {
         cuda::init()?;
         let device = cuda::device(options.ordinal)?;
         let info = cuda::describe(options.ordinal)?;
@@ -93,6 +119,7 @@ impl Context {
             cuda,
             device,
             stream: std::ptr::null_mut(),
+            stream_owner: None,
             info,
             limits: Limits::default(),
             validation: options.validation,
@@ -100,8 +127,16 @@ impl Context {
         };
         {
             let _current = inner.enter()?;
-            let kind = result::stream::StreamKind::NonBlocking;
-            inner.stream = inner.cuda("cuStreamCreate", result::stream::create(kind))?;
+            match other {
+                None => {
+                    let kind = result::stream::StreamKind::NonBlocking;
+                    inner.stream = inner.cuda("cuStreamCreate", result::stream::create(kind))?;
+                }
+                Some((stream, owner)) => {
+                    inner.check_stream(stream)?;
+                    (inner.stream, inner.stream_owner) = (stream, Some(owner));
+                }
+            }
             inner.raw = inner.create(options)?;
             inner.apply_cache(&options.cache)?;
             inner.limits = Limits::query(api.abi.version, |property| inner.property(property))?;
@@ -178,6 +213,11 @@ impl Context {
         self.0.stream
     }
 
+    /// What [`Self::on_stream`] was given to keep the stream alive.
+    pub fn stream_owner(&self) -> Option<&Arc<dyn Any + Send + Sync>> {
+        self.0.stream_owner.as_ref()
+    }
+
     pub(super) fn table(&self) -> &'static FunctionTable {
         &self.0.api.table
     }
@@ -235,6 +275,20 @@ impl Inner {
             log: log(),
             messages: self.log.take_unreported(),
         })))
+    }
+
+    /// Whether other code's stream is of this GPU's primary context.
+    fn check_stream(&self, stream: cu::CUstream) -> Result<(), Error> {
+        let mut context = std::ptr::null_mut();
+        // SAFETY: the stream is live, as `Context::on_stream` demands, and `context` is valid for a write.
+        let result = unsafe { cu::cuStreamGetCtx(stream, &mut context) }.result();
+        self.cuda("cuStreamGetCtx", result)?;
+        if context == self.cuda {
+            return Ok(());
+        }
+        let problem = format!("it is not of the primary context of GPU {}", self.info.ordinal);
+        let remedy = "make the stream in that GPU's primary context; contexts of another kind can't be shared";
+        Err(Error::invalid("a stream of other code", problem, remedy))
     }
 
     fn create(&self, options: &ContextOptions) -> Result<sys::OptixDeviceContext, Error> {
@@ -304,7 +358,7 @@ impl Drop for Inner {
                 // SAFETY: every object made from the context holds it, so none is left; the log sink is still alive.
                 let _ = unsafe { self.api.table.device_context_destroy(self.raw) };
             }
-            if !self.stream.is_null() {
+            if !self.stream.is_null() && self.stream_owner.is_none() {
                 // SAFETY: the stream is live, idle, and used by nobody else.
                 let _ = unsafe { result::stream::destroy(self.stream) };
             }

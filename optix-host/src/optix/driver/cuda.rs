@@ -93,6 +93,29 @@ pub(super) fn device(ordinal: usize) -> Result<cu::CUdevice, Error> {
     }
 }
 
+/// The position of a CUDA context's GPU in CUDA's list.
+///
+/// # Errors
+/// As [`devices`].
+///
+/// # Safety
+/// The context is live.
+pub unsafe fn ordinal_of(context: cu::CUcontext) -> Result<usize, Error> {
+    init()?;
+    // SAFETY: the caller promises that the context is live.
+    let _current = check("cuCtxPushCurrent", unsafe { Current::push(context) }, Vec::new)?;
+    let mut wanted = 0;
+    // SAFETY: a context is current, and `wanted` is valid for a write.
+    check("cuCtxGetDevice", unsafe { cu::cuCtxGetDevice(&mut wanted) }.result(), Vec::new)?;
+    let count = count()?;
+    for ordinal in 0..count {
+        if device(ordinal)? == wanted {
+            return Ok(ordinal);
+        }
+    }
+    Err(Error::NoDevice { ordinal: count, count })
+}
+
 /// Needs [`init`].
 pub(super) fn describe(ordinal: usize) -> Result<DeviceInfo, Error> {
     use cu::CUdevice_attribute as Attribute;

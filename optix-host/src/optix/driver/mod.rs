@@ -45,7 +45,7 @@ pub use accel::{
 };
 pub use buffer::DeviceBuffer;
 pub use context::{Context, ContextOptions, DiskCache};
-pub use cuda::{DeviceInfo, devices};
+pub use cuda::{DeviceInfo, devices, ordinal_of};
 pub use error::{CudaFailure, Error, OptixFailure};
 pub use launch::{Launch, LaunchArgs};
 pub use limits::Limits;

@@ -1,0 +1,5 @@
+//! Compiles the tests' shaders to PTX.
+
+fn main() {
+    optix_toolchain::shaders("../shaders");
+}
