@@ -12,6 +12,10 @@ use crate::error::Error;
 /// The value of `OPTIX_RUSTC` that stands for no compiler.
 const NONE: &str = "none";
 
+/// Where the system looks for libraries, before its own folders. Cargo sets it for build scripts to its own compiler's;
+/// another compiler must not load those.
+pub(crate) const LIBRARY_PATH: &str = "LD_LIBRARY_PATH";
+
 /// The target triple of device code.
 pub(crate) const TARGET: &str = "nvptx64-nvidia-cuda";
 
@@ -280,12 +284,7 @@ fn resolve(program: &Path) -> PathBuf {
 }
 
 fn output(program: &Path, args: &[&str]) -> Result<String, String> {
-    let output = Command::new(program)
-        .args(args)
-        // Cargo sets it for build scripts to its own compiler's libraries; another compiler must not load those.
-        .env_remove("LD_LIBRARY_PATH")
-        .output()
-        .map_err(|e| e.to_string())?;
+    let output = Command::new(program).args(args).env_remove(LIBRARY_PATH).output().map_err(|e| e.to_string())?;
     if output.status.success() {
         String::from_utf8(output.stdout).map_err(|e| e.to_string())
     } else {

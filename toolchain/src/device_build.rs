@@ -14,7 +14,8 @@ use crate::metadata::{Package, Workspace};
 use crate::nvvm;
 use crate::options::{Codegen, Shaders};
 use crate::ptx;
-use crate::sysroot;
+use crate::rust_cuda::{self, Backend};
+use crate::sysroot::{self, Recipe};
 use crate::util;
 use crate::wrapper::{PROFILE, Wrapper};
 
@@ -65,6 +66,8 @@ pub(crate) struct Session<'a> {
     user_lock: PathBuf,
     resolve: Wrapper,
     sysroot: PathBuf,
+    /// Where `rustc` loads its code generator from.
+    backend: Option<Backend>,
     _lock: File,
 }
 
@@ -72,7 +75,8 @@ impl<'a> Session<'a> {
     /// Finds compiler and packages, and makes the sysroot.
     pub fn open(shaders: &'a Shaders, area: &Path) -> Result<Self, Error> {
         let (package, workspace) = shader_crate(&shaders.path)?;
-        let compiler = DeviceCompiler::find()?;
+        let backend = if shaders.codegen == Codegen::RustCuda { Some(Backend::find()?) } else { None };
+        let compiler = backend.as_ref().map_or_else(DeviceCompiler::find, |backend| Ok(backend.compiler.clone()))?;
         if !compiler.archs.contains(&shaders.arch) {
             return Err(Error::UnknownArch { arch: shaders.arch.clone(), known: compiler.archs });
         }
@@ -87,8 +91,13 @@ impl<'a> Session<'a> {
         let resolve = Wrapper::write(own.join("resolve"), shaders, &package, None)?;
         lock::seed(&resolve.dir, &std::fs::read_to_string(&user_lock).unwrap_or_default())?;
         let graph = Workspace::with_dependencies(&resolve.dir)?;
-        let sysroot = sysroot::ensure(&compiler, &shaders.arch, &area, shaders.quiet)?;
-        Ok(Self { shaders, package, compiler, graph, own, area, user_lock, resolve, sysroot, _lock: lock })
+        let recipe = Recipe {
+            compiler: &compiler,
+            arch: &shaders.arch,
+            generator: backend.as_ref().map(|backend| backend.flags(shaders)),
+        };
+        let sysroot = sysroot::ensure(&recipe, &area, shaders.quiet)?;
+        Ok(Self { shaders, package, compiler, graph, own, area, user_lock, resolve, sysroot, backend, _lock: lock })
     }
 
     /// The lock file of the dependency graph.
@@ -97,7 +106,21 @@ impl<'a> Session<'a> {
     }
 
     fn rustflags(&self) -> String {
-        self.shaders.rustflags(&self.sysroot).join("\x1f")
+        let mut flags = vec![
+            format!("--sysroot={}", self.sysroot.display()),
+            // What device code needs from the compiler beyond stable Rust is given from outside, so that a shader
+            // crate needs no `#![feature]` and compiles on the host with a stable compiler.
+            "-Zcrate-attr=feature(abi_ptx,asm_experimental_arch)".into(),
+            "-Aunused_features".into(),
+        ];
+        match &self.backend {
+            None => flags.extend(self.shaders.rustflags()),
+            Some(backend) => {
+                flags.extend(rust_cuda::ENTRY_ATTRIBUTES.map(|attribute| format!("-Zcrate-attr={attribute}")));
+                flags.extend(backend.flags(self.shaders));
+            }
+        }
+        flags.join("\x1f")
     }
 
     /// Where cargo builds: shared by the crates of one area that are compiled alike.
@@ -118,6 +141,7 @@ impl<'a> Session<'a> {
         let target_dir = self.target_dir();
         let (text, written) = match self.shaders.codegen {
             Codegen::Rustc => self.generate(&wrapper, &target_dir)?,
+            Codegen::RustCuda => self.generate_by_rust_cuda(&wrapper, &target_dir)?,
             #[cfg(feature = "nvvm")]
             Codegen::Nvvm => self.generate_by_nvvm(&wrapper, &target_dir)?,
         };
@@ -155,6 +179,13 @@ impl<'a> Session<'a> {
             util::write_if_changed(&ptx, &text)?;
         }
         Ok((text, ptx))
+    }
+
+    /// The PTX of `rustc_codegen_nvvm`, which writes it where a linker would write a library, and where it is.
+    fn generate_by_rust_cuda(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(String, PathBuf), Error> {
+        let ptx = self.own.join(format!("{}.rust-cuda.ptx", wrapper.library));
+        self.run_cargo(wrapper, target_dir, "link", &ptx)?;
+        Ok((util::read(&ptx)?, ptx))
     }
 
     /// The PTX that libNVVM makes of rustc's LLVM IR, and where it is.
@@ -200,6 +231,9 @@ impl<'a> Session<'a> {
                 .env("RUSTC_WRAPPER", "")
                 .env("RUSTC_WORKSPACE_WRAPPER", "")
                 .env("CARGO_ENCODED_RUSTFLAGS", self.rustflags());
+            if self.backend.is_some() {
+                rust_cuda::prepare(&mut command);
+            }
             cargo::run(&mut command, &format!("compiling {} for the device", self.package.name))
         };
         run()?;

@@ -51,6 +51,8 @@ pub enum Error {
     /// No libNVVM on this machine does.
     #[cfg(feature = "nvvm")]
     NoNvvm(String),
+    /// No `rustc_codegen_nvvm` on this machine does.
+    NoRustCuda(String),
     /// libNVVM has failed.
     #[cfg(feature = "nvvm")]
     Nvvm(crate::nvvm::Failure),
@@ -104,6 +106,9 @@ impl fmt::Display for Error {
             #[cfg(feature = "nvvm")]
             Self::NoNvvm(reason) => {
                 write!(f, "no libNVVM ({reason}); run `cargo optix setup --nvvm`, or name one by OPTIX_NVVM")
+            }
+            Self::NoRustCuda(reason) => {
+                write!(f, "no code generator rustc_codegen_nvvm: {reason}; {}", crate::rust_cuda::INSTALL)
             }
             #[cfg(feature = "nvvm")]
             Self::Nvvm(failure) => write!(f, "{failure}"),

@@ -48,6 +48,7 @@ mod metadata;
 pub mod nvvm;
 mod options;
 pub mod ptx;
+pub mod rust_cuda;
 mod sysroot;
 mod util;
 // Not for build scripts, which they would make slower.

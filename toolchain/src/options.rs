@@ -13,7 +13,7 @@ use crate::util;
 /// Turing needs an older architecture here (OptiX 9 on driver 580 takes them from Maxwell, `sm_50`, on).
 pub const DEFAULT_ARCH: &str = "sm_75";
 
-/// What makes PTX of the LLVM IR that `rustc` writes.
+/// What makes PTX.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Codegen {
     /// `rustc`'s own NVPTX back end.
@@ -22,6 +22,9 @@ pub enum Codegen {
     /// NVIDIA's libNVVM, which nvcc uses as well, [loaded](crate::nvvm) at run time. Line information is not kept.
     #[cfg(feature = "nvvm")]
     Nvvm,
+    /// `rustc_codegen_nvvm` of the Rust-CUDA project, with the nightly that it is built for:
+    /// [`rust_cuda`](crate::rust_cuda).
+    RustCuda,
 }
 
 /// A shader crate and how to compile it; [`shaders`](crate::shaders) with options.
@@ -145,8 +148,8 @@ impl Shaders {
         device_build::build(self, area.as_ref())
     }
 
-    /// What `rustc` is given for each crate of the device build.
-    pub(crate) fn rustflags(&self, sysroot: &Path) -> Vec<String> {
+    /// What `rustc` is given for each crate of the device build, for its own code generator.
+    pub(crate) fn rustflags(&self) -> Vec<String> {
         // OptiX inlines every function anyway; called ones would only pass values through memory until then. Threads
         // part at a branch, so conditions are joined where that costs a few instructions. Peeling a loop copies the trace
         // calls in it, and each of those is a place where a program is cut in two.
@@ -160,11 +163,6 @@ impl Shaders {
             llvm.push_str(" -nvptx-prec-sqrtf32=0");
         }
         vec![
-            format!("--sysroot={}", sysroot.display()),
-            // What device code needs from the compiler beyond stable Rust is given from outside, so that a shader
-            // crate needs no `#![feature]` and compiles on the host with a stable compiler.
-            "-Zcrate-attr=feature(abi_ptx,asm_experimental_arch)".into(),
-            "-Aunused_features".into(),
             format!("-Ctarget-cpu={}", self.arch),
             // An indirect branch costs a GPU more than a few comparisons.
             "-Cjump-tables=no".into(),

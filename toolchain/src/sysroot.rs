@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::compiler::{DeviceCompiler, TARGET};
+use crate::compiler::{DeviceCompiler, LIBRARY_PATH, TARGET};
 use crate::error::{Doing, Error};
 use crate::util;
 
@@ -17,10 +17,37 @@ use crate::util;
 /// unresolved by the check of the PTX.
 const COMPILER_BUILTINS: &str = "#![no_std]\n#![feature(compiler_builtins)]\n#![compiler_builtins]\n";
 
-/// The sysroot for `compiler` and `arch` under `area`, compiled if it is not there yet. About 15 s on two cores, once.
-pub(crate) fn ensure(compiler: &DeviceCompiler, arch: &str, area: &Path, quiet: bool) -> Result<PathBuf, Error> {
+/// Who compiles it, and for what.
+pub(crate) struct Recipe<'a> {
+    pub compiler: &'a DeviceCompiler,
+    pub arch: &'a str,
+    /// What selects a code generator other than `rustc`'s.
+    pub generator: Option<Vec<String>>,
+}
+
+impl Recipe<'_> {
+    /// The flags of the code generator.
+    fn flags(&self) -> Vec<String> {
+        match &self.generator {
+            // The machine code of an rlib is never used, since everything is optimised together at the end: leave it
+            // out, and optimise in parallel.
+            None => {
+                let cpu = format!("-Ctarget-cpu={}", self.arch);
+                vec!["-Clinker-plugin-lto".into(), "-Ccodegen-units=16".into(), cpu]
+            }
+            // Without optimisation over crates, panics keep their messages unless `core` has none.
+            Some(flags) => [flags.as_slice(), &["--cfg=feature=\"panic_immediate_abort\"".into()]].concat(),
+        }
+    }
+}
+
+/// The sysroot under `area`, compiled if it is not there yet. About 15 s on two cores, once.
+pub(crate) fn ensure(recipe: &Recipe<'_>, area: &Path, quiet: bool) -> Result<PathBuf, Error> {
+    let &Recipe { compiler, arch, .. } = recipe;
+    let flags = recipe.flags();
     // The architecture is part of it: LLVM does not inline between functions of different target CPUs.
-    let name = format!("sysroot-{}", util::hash([compiler.version.as_str(), arch]));
+    let made_by = [compiler.version.as_str(), arch].into_iter().chain(flags.iter().map(String::as_str));
+    let name = format!("sysroot-{}", util::hash(made_by));
     let sysroot = area.join(&name);
     if sysroot.is_dir() {
         return Ok(sysroot);
@@ -44,21 +71,21 @@ pub(crate) fn ensure(compiler: &DeviceCompiler, arch: &str, area: &Path, quiet: 
     let core = compiler.library.join("core/src/lib.rs");
     let edition = compiler.core_edition()?;
     for (name, source) in [("core", &core), ("compiler_builtins", &builtins)] {
-        let status = Command::new(&compiler.rustc)
+        let mut command = Command::new(&compiler.rustc);
+        if recipe.generator.is_none() {
+            command.env_remove(LIBRARY_PATH);
+        }
+        let status = command
             .args(["--crate-name", name, "--crate-type", "rlib", "--edition", &edition, "--target", TARGET])
             .args(["--cap-lints", "allow", "-Cpanic=abort", "-Copt-level=3", "-Cmetadata=optix"])
-            // The machine code of an rlib is never used, since everything is optimised together at the end: leave it
-            // out, and optimise in parallel.
-            .args(["-Clinker-plugin-lto", "-Ccodegen-units=16"])
+            .args(&flags)
             .arg("-Zforce-unstable-if-unmarked")
-            .arg(format!("-Ctarget-cpu={arch}"))
             .arg("--sysroot")
             .arg(&unfinished)
             .arg("--out-dir")
             .arg(&libraries)
             .arg(source)
             .env("RUSTC_BOOTSTRAP", "1")
-            .env_remove("LD_LIBRARY_PATH")
             .status()
             .doing(|| format!("cannot run {}", compiler.rustc.display()))?;
         if !status.success() {

@@ -82,10 +82,18 @@ impl Entries<'_> {
                 #call
             }
         });
+        // The generator `rustc_codegen_nvvm` knows entries by attributes of its own; the toolchain asks for them.
+        let marked = std::env::var_os("OPTIX_ENTRIES").is_some_and(|by| by == "rustc_codegen_nvvm");
+        let mark = match (marked, kind.is_callable()) {
+            (false, _) => quote!(),
+            (true, false) => quote!(#[nvvm_internal::kernel]),
+            (true, true) => quote!(#[nvvm_internal::used]),
+        };
         self.items.extend(if kind.is_callable() {
             quote! {
                 // SAFETY: `Cx::call_direct` and its kin call it, by this type, with a record of its own.
                 #[cfg(target_arch = "nvptx64")]
+                #mark
                 #[allow(improper_ctypes_definitions)]
                 #[unsafe(no_mangle)]
                 pub unsafe extern "C" fn #device(
@@ -101,6 +109,7 @@ impl Entries<'_> {
             quote! {
                 // SAFETY: OptiX calls it as a program of its kind, with the record and payload of its hit group or ray type.
                 #[cfg(target_arch = "nvptx64")]
+                #mark
                 #[unsafe(no_mangle)]
                 pub unsafe extern "ptx-kernel" fn #device() {
                     let __cx = unsafe { #krate::machine::Cx::new() };

@@ -5,7 +5,8 @@ use std::process::{Command, ExitCode};
 
 use optix_toolchain::inspect::ptxas::Ptxas;
 use optix_toolchain::nvvm::{self, Library, PtxVersion};
-use optix_toolchain::{Candidate, DEFAULT_ARCH, DeviceCompiler, MINIMUM, Rejected, Why};
+use optix_toolchain::rust_cuda::{self, Backend};
+use optix_toolchain::{Candidate, DEFAULT_ARCH, DeviceCompiler, Error, MINIMUM, Rejected, Why};
 
 use super::libraries::{self, Driver};
 use super::{Outcome, cargo, setup};
@@ -21,6 +22,9 @@ pub(super) fn run() -> Outcome {
     say!("");
     say!("code generators besides rustc's own (optional):");
     nvvm();
+    let backend = Backend::find()
+        .map(|Backend { library, compiler }| format!("{} for {}", library.display(), setup::describe(&compiler)));
+    report("rustc_codegen_nvvm", backend.map_err(|error| missing(&error)), rust_cuda::INSTALL);
     let ptxas = Ptxas::find().map(|ptxas| format!("{}, {}", ptxas.program.display(), ptxas.version));
     report("ptxas", ptxas.ok_or_else(String::new), Ptxas::MISSING);
     say!("");
@@ -144,6 +148,11 @@ fn nvvm() {
     if found.is_empty() {
         report("libNVVM", Err(String::new()), "`cargo optix setup --nvvm`");
     }
+}
+
+/// What is missing of `rustc_codegen_nvvm`, without what to install.
+fn missing(error: &Error) -> String {
+    if let Error::NoRustCuda(reason) = error { reason.clone() } else { error.to_string() }
 }
 
 /// The last line of what a program says to `--version`.

@@ -37,6 +37,9 @@ enum Generator {
     Rustc,
     /// NVIDIA's libNVVM: `cargo optix setup --nvvm` installs it.
     Nvvm,
+    /// `rustc_codegen_nvvm` of the Rust-CUDA project, where you have it: `cargo optix doctor` says.
+    #[value(name = "rustc_codegen_nvvm")]
+    RustCuda,
 }
 
 impl Options {
@@ -46,6 +49,7 @@ impl Options {
         let codegen = match codegen {
             Generator::Rustc => Codegen::Rustc,
             Generator::Nvvm => Codegen::Nvvm,
+            Generator::RustCuda => Codegen::RustCuda,
         };
         let shaders = Shaders::new(path).arch(arch).codegen(codegen).line_info(debug);
         shaders.fmad(fmad).ftz(ftz).prec_div(prec_div).prec_sqrt(prec_sqrt)
