@@ -7,13 +7,15 @@ use crate::options::Shaders;
 /// nvcc's options for libNVVM.
 pub(crate) fn options(shaders: &Shaders) -> Vec<String> {
     let switch = |name: &str, on: bool| format!("-{name}={}", u8::from(on));
-    vec![
+    let mut options = vec![
         format!("-arch={}", shaders.arch.replacen("sm_", "compute_", 1)),
         switch("ftz", shaders.ftz),
         switch("prec-div", shaders.prec_div),
         switch("prec-sqrt", shaders.prec_sqrt),
         switch("fma", shaders.fmad),
-    ]
+    ];
+    options.extend(shaders.line_info.then(|| "-generate-line-info".to_string()));
+    options
 }
 
 /// The IR of a shader crate as libNVVM takes it.

@@ -275,6 +275,8 @@ pub(super) struct Function {
     pub parameters: Vec<Argument>,
     pub variadic: bool,
     pub attributes: Attributes,
+    /// The node that says where its source is, by number.
+    pub debug: Option<String>,
     pub blocks: Vec<Block>,
     pub line: usize,
 }
@@ -302,4 +304,22 @@ pub(super) struct Module {
     pub functions: Vec<Function>,
     /// `!5 = ..`, by name and text.
     pub metadata: BTreeMap<String, String>,
+    /// `!5 = !DILocation(..)` and its kin, by name.
+    pub debug: BTreeMap<String, DebugNode>,
+}
+
+/// What debug information says in one place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct DebugNode {
+    /// `DILocation`
+    pub kind: String,
+    /// Name and text: `("line", "12")`, `("scope", "!5")`.
+    pub fields: Vec<(String, String)>,
+}
+
+impl DebugNode {
+    /// The text of a field.
+    pub fn field(&self, name: &str) -> Option<&str> {
+        self.fields.iter().find(|(known, _)| known == name).map(|(_, text)| text.as_str())
+    }
 }

@@ -18,13 +18,22 @@ pub(super) struct Builder<'a> {
     renamed: HashMap<String, Value>,
     /// Local names whose value can't be undefined.
     pub defined: HashSet<String>,
+    /// The line of the text that is being lowered.
     pub line: usize,
+    /// What is said of its source.
+    debug: Option<(String, String)>,
     count: usize,
 }
 
 impl<'a> Builder<'a> {
     pub fn new(called: &'a mut Called, own: &'a HashSet<String>, defined: HashSet<String>) -> Self {
-        Self { called, own, out: Vec::new(), renamed: HashMap::new(), defined, line: 0, count: 0 }
+        Self { called, own, out: Vec::new(), renamed: HashMap::new(), defined, line: 0, debug: None, count: 0 }
+    }
+
+    /// What is appended from here on stands for this instruction.
+    pub fn at(&mut self, instruction: &Instruction) {
+        self.line = instruction.line;
+        self.debug = instruction.metadata.iter().find(|(name, _)| name == "dbg").cloned();
     }
 
     /// The instructions since the last time.
@@ -53,12 +62,17 @@ impl<'a> Builder<'a> {
     fn push(&mut self, op: Op, ty: Type) -> Typed {
         let name = format!("{FRESH}{}", self.count);
         self.count += 1;
-        self.out.push(Instruction { result: Some(name.clone()), op, metadata: Vec::new(), line: self.line });
+        self.append(Some(name.clone()), op);
         Typed::new(ty, Value::Local(name))
     }
 
     fn push_void(&mut self, op: Op) {
-        self.out.push(Instruction { result: None, op, metadata: Vec::new(), line: self.line });
+        self.append(None, op);
+    }
+
+    fn append(&mut self, result: Option<String>, op: Op) {
+        let metadata = self.debug.iter().cloned().collect();
+        self.out.push(Instruction { result, op, metadata, line: self.line });
     }
 
     pub fn binary(&mut self, op: &str, a: &Typed, b: &Typed) -> Typed {

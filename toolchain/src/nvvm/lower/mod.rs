@@ -57,6 +57,7 @@ fn declaration(name: String, result: Type, parameters: Vec<Type>) -> Function {
         parameters: parameters.into_iter().map(parameter).collect(),
         variadic: false,
         attributes: vec!["nounwind".into()],
+        debug: None,
         blocks: Vec::new(),
         line: 0,
     }
@@ -67,7 +68,7 @@ fn function(function: &mut Function, called: &mut Called, own: &HashSet<String>,
     let mut builder = Builder::new(called, own, defined);
     for block in &mut function.blocks {
         for instruction in std::mem::take(&mut block.instructions) {
-            builder.line = instruction.line;
+            builder.at(&instruction);
             lower(&mut builder, instruction).map_err(|unknown| unknown.at(text, builder.line, &function.name))?;
         }
         block.instructions = builder.take();

@@ -33,8 +33,8 @@ const NEWER_FLAGS: [&str; 3] = ["disjoint", "nneg", "samesign"];
 const FLOAT_FLAGS: [&str; 8] = ["nnan", "ninf", "nsz", "arcp", "contract", "afn", "reassoc", "fast"];
 const ORDERINGS: [&str; 6] = ["unordered", "monotonic", "acquire", "release", "acq_rel", "seq_cst"];
 const ATOMICS: [&str; 11] = ["xchg", "add", "sub", "and", "or", "xor", "max", "min", "umax", "umin", "fadd"];
-/// What is kept of the metadata on instructions; the rest promises what need not be used, or is for debuggers.
-const METADATA: [&str; 5] = ["range", "noalias", "alias.scope", "invariant.load", "noundef"];
+/// What is kept of the metadata on instructions; the rest promises what need not be used.
+const METADATA: [&str; 6] = ["range", "noalias", "alias.scope", "invariant.load", "noundef", "dbg"];
 
 impl<'a> Parser<'_, 'a> {
     pub(super) fn instruction(&mut self) -> Parsed<Instruction> {

@@ -2,7 +2,7 @@
 
 use super::{Parsed, Parser};
 use crate::nvvm::lexer::Token;
-use crate::nvvm::model::{Argument, Block, Function, Module, Type, Typed, Value, Variable};
+use crate::nvvm::model::{Argument, Block, DebugNode, Function, Module, Type, Typed, Value, Variable};
 use crate::nvvm::refusal::Unknown;
 
 const LINKAGES: [&str; 11] = [
@@ -82,8 +82,17 @@ impl Parser<'_, '_> {
                     module.variables.push(variable);
                 }
                 Token::Metadata(name) => {
-                    let text = self.metadata_node()?;
-                    module.metadata.insert(name.to_string(), text);
+                    self.expect('=')?;
+                    let distinct = self.eat_word("distinct");
+                    if let Token::Metadata(kind) = self.peek()
+                        && kind.starts_with("DI")
+                    {
+                        let node = self.debug_node()?;
+                        module.debug.insert(name.to_string(), node);
+                    } else {
+                        let text = self.metadata_node(distinct)?;
+                        module.metadata.insert(name.to_string(), text);
+                    }
                 }
                 _ => {
                     self.at -= 1;
@@ -150,29 +159,62 @@ impl Parser<'_, '_> {
     }
 
     /// `!{!6, !"name"}`, as text.
-    fn metadata_node(&mut self) -> Parsed<String> {
-        self.expect('=')?;
-        let mut text = String::new();
-        if self.eat_word("distinct") {
-            text.push_str("distinct ");
-        }
+    fn metadata_node(&mut self, distinct: bool) -> Parsed<String> {
+        let mut text = String::from(if distinct { "distinct " } else { "" });
         let line = self.next_line();
         // A node is on one line.
         while self.next_line() == line && self.peek() != Token::End {
-            match self.next() {
-                Token::Metadata(name) => text.push_str(&format!("!{name}")),
-                Token::Word(word) => text.push_str(&format!("{word} ")),
-                Token::Label(word) => text.push_str(&format!("{word}: ")),
-                Token::Text(string) => text.push_str(&format!("\"{string}\"")),
-                Token::Punctuation(c) => text.push(c),
-                Token::Global(name) => text.push_str(&format!("@\"{name}\"")),
-                _ => {
-                    self.at -= 1;
-                    return self.unexpected("metadata");
-                }
-            }
+            self.metadata_token(&mut text)?;
         }
         Ok(text)
+    }
+
+    /// `!DILocation(line: 12, scope: !5)`
+    fn debug_node(&mut self) -> Parsed<DebugNode> {
+        let Token::Metadata(kind) = self.next() else { return self.unexpected("a node") };
+        let mut node = DebugNode { kind: kind.to_string(), fields: Vec::new() };
+        self.expect('(')?;
+        let mut depth = 0;
+        let (mut name, mut text) = (String::new(), String::new());
+        loop {
+            match self.peek() {
+                Token::Label(label) if depth == 0 && text.is_empty() => {
+                    self.at += 1;
+                    name = label.to_string();
+                    continue;
+                }
+                Token::Punctuation(c @ (',' | ')')) if depth == 0 => {
+                    self.at += 1;
+                    node.fields.push((std::mem::take(&mut name), std::mem::take(&mut text).trim_end().to_string()));
+                    if c == ')' {
+                        return Ok(node);
+                    }
+                    continue;
+                }
+                Token::Punctuation('(' | '{') => depth += 1,
+                Token::Punctuation(')' | '}') => depth -= 1,
+                Token::End => return self.unexpected("`)`"),
+                _ => {}
+            }
+            self.metadata_token(&mut text)?;
+        }
+    }
+
+    /// Appends the text of the token that comes next.
+    fn metadata_token(&mut self, text: &mut String) -> Parsed<()> {
+        match self.next() {
+            Token::Metadata(name) => text.push_str(&format!("!{name}")),
+            Token::Word(word) => text.push_str(&format!("{word} ")),
+            Token::Label(word) => text.push_str(&format!("{word}: ")),
+            Token::Text(string) => text.push_str(&format!("\"{string}\"")),
+            Token::Punctuation(c) => text.push(c),
+            Token::Global(name) => text.push_str(&format!("@\"{name}\"")),
+            _ => {
+                self.at -= 1;
+                return self.unexpected("metadata");
+            }
+        }
+        Ok(())
     }
 
     fn function(&mut self, defined: bool) -> Parsed<Function> {
@@ -211,8 +253,9 @@ impl Parser<'_, '_> {
         let parameters: Vec<Argument> = parameters.into_iter().flatten().collect();
         while self.one_of(&VISIBILITY).is_some() {}
         let attributes = self.function_attributes()?;
+        let (blocks, debug) = (Vec::new(), None);
         let mut function =
-            Function { name, linkage, kernel, result, parameters, variadic, attributes, blocks: Vec::new(), line };
+            Function { name, linkage, kernel, result, parameters, variadic, attributes, debug, blocks, line };
         if !defined {
             return Ok(function);
         }
@@ -227,7 +270,11 @@ impl Parser<'_, '_> {
                     }
                 }
                 Token::Word("personality") => drop(self.typed()?),
-                Token::Metadata(_) => drop(self.next()),
+                Token::Metadata(name) => {
+                    if let (Token::Metadata(node), "dbg") = (self.next(), name) {
+                        function.debug = Some(node.to_string());
+                    }
+                }
                 _ => {
                     self.at -= 1;
                     return self.unexpected("the body of the function");

@@ -1,4 +1,4 @@
-//! Metadata: which functions are kernels, the version of the format, loops, and what instructions refer to.
+//! Metadata: which functions are kernels, the version of the format, loops, lines, and what instructions refer to.
 
 use std::collections::BTreeSet;
 
@@ -11,8 +11,10 @@ impl Printer<'_> {
         // What hangs on instructions, and what that refers to.
         let instructions = module.functions.iter().flat_map(|f| &f.blocks).flat_map(|block| &block.instructions);
         let attached = instructions.flat_map(|instruction| &instruction.metadata);
-        let mut waiting: Vec<&str> =
-            attached.filter(|(name, _)| name != "noundef").map(|(_, node)| node.trim_start_matches('!')).collect();
+        let mut waiting: Vec<&str> = attached
+            .filter(|(name, _)| !matches!(&**name, "noundef" | "dbg"))
+            .map(|(_, node)| node.trim_start_matches('!'))
+            .collect();
         let mut used = BTreeSet::new();
         while let Some(name) = waiting.pop() {
             if let Some(text) = module.metadata.get(name)
@@ -37,10 +39,13 @@ impl Printer<'_> {
             self.say(format_args!("!{number} = !{{!\"llvm.loop.unroll.disable\"}}"));
             number += 1;
         }
+        let lines = self.debug.lines();
         let version = match self.dialect {
-            Dialect::Llvm7 => "i32 2, i32 0",
+            Dialect::Llvm7 if lines.is_empty() => "i32 2, i32 0",
+            Dialect::Llvm7 => "i32 2, i32 0, i32 3, i32 1",
             Dialect::Modern => "i32 2, i32 0, i32 3, i32 2",
         };
+        lines.iter().for_each(|line| self.say(line));
         self.say(format_args!("!nvvmir.version = !{{!{number}}}"));
         self.say(format_args!("!{number} = !{{{version}}}"));
 

@@ -1,5 +1,6 @@
 //! A lowered [`Module`] as the text that libNVVM reads.
 
+mod debug;
 mod instructions;
 mod metadata;
 mod types;
@@ -11,6 +12,7 @@ use std::fmt::Write;
 use super::Dialect;
 use super::model::{Argument, Function, Instruction, Module, Op, Variable};
 use super::refusal::{Refusal, Unknown};
+use debug::Debug;
 
 /// NVVM's data layout, which rustc's agrees with.
 const LAYOUT: &str = "e-p:64:64:64-i1:8:8-i8:8:8-i16:16:16-i32:32:32-i64:64:64-i128:128:128-f32:32:32-f64:64:64-v16:16:16-\
@@ -18,6 +20,8 @@ const LAYOUT: &str = "e-p:64:64:64-i1:8:8-i8:8:8-i16:16:16-i32:32:32-i64:64:64-i
 
 /// Prints the module; `text` is what it was read from.
 pub(super) fn module(module: &Module, dialect: Dialect, text: &str) -> Result<String, Refusal> {
+    let numbers = module.metadata.keys().chain(module.debug.keys()).filter_map(|name| name.parse::<u64>().ok());
+    let node = numbers.max().unwrap_or(0);
     let mut printer = Printer {
         module,
         dialect,
@@ -26,7 +30,8 @@ pub(super) fn module(module: &Module, dialect: Dialect, text: &str) -> Result<St
         out: String::new(),
         count: 0,
         line: 0,
-        node: module.metadata.keys().filter_map(|name| name.parse::<u64>().ok()).max().unwrap_or(0),
+        node: node.saturating_add(debug::NUMBERS),
+        debug: Debug::new(module, dialect, node.saturating_add(1)),
         loops: HashMap::new(),
         before: HashSet::new(),
     };
@@ -51,6 +56,8 @@ struct Printer<'m> {
     line: usize,
     /// The number of metadata that was given last.
     node: u64,
+    /// The source of functions and instructions.
+    debug: Debug<'m>,
     /// The metadata of each loop, by function and first block.
     loops: HashMap<(&'m str, &'m str), u64>,
     /// The blocks of the function so far.
@@ -134,6 +141,7 @@ impl<'m> Printer<'m> {
             self.say(line);
             return Ok(());
         }
+        line.push_str(&self.debug.attachment("", function.debug.as_deref()));
         self.say(format_args!("{line} {{"));
         self.before.clear();
         for (at, block) in function.blocks.iter().enumerate() {
@@ -200,7 +208,7 @@ impl<'m> Printer<'m> {
         let result = instruction.result.as_deref().map(values::local);
         let mut text = self.op(&instruction.op)?;
         if matches!(instruction.op, Op::Load { .. } | Op::Store { .. }) {
-            for (name, node) in instruction.metadata.iter().filter(|(name, _)| name != "noundef") {
+            for (name, node) in instruction.metadata.iter().filter(|(name, _)| !matches!(&**name, "noundef" | "dbg")) {
                 let _ = write!(text, ", !{name} {node}");
             }
         }
@@ -212,6 +220,8 @@ impl<'m> Printer<'m> {
             self.node = self.node.max(node);
             let _ = write!(text, ", !llvm.loop !{node}");
         }
+        let source = instruction.metadata.iter().find(|(name, _)| name == "dbg").map(|(_, node)| node.as_str());
+        text.push_str(&self.debug.attachment(",", source));
         match result {
             Some(result) => self.say(format_args!("  {result} = {text}")),
             None => self.say(format_args!("  {text}")),

@@ -272,7 +272,7 @@ fn libnvvm_and_ptxas_accept_every_construct() {
 
 /// Has ptxas assemble it, where ptxas is there.
 #[cfg(feature = "cli")]
-fn assemble(ptx: &str, arch: &str) {
+pub(super) fn assemble(ptx: &str, arch: &str) {
     let Some(ptxas) = crate::inspect::ptxas::Ptxas::find() else { return };
     let folder = std::env::temp_dir();
     let file = folder.join(format!("optix-nvvm-{}-{arch}.ptx", std::process::id()));
@@ -289,7 +289,7 @@ fn assemble(ptx: &str, arch: &str) {
 }
 
 #[cfg(not(feature = "cli"))]
-fn assemble(_: &str, _: &str) {}
+pub(super) fn assemble(_: &str, _: &str) {}
 
 /// The instructions of a function in PTX, one after the other.
 fn instructions(ptx: &str, function: &str) -> String {

@@ -5,6 +5,7 @@
 mod accepted;
 mod computed;
 mod fuzz;
+mod lines;
 mod refused;
 
 use super::{Dialect, Library, choose, libdevice, translate};
