@@ -137,6 +137,21 @@ impl Gpu {
         self.modules[generator].as_ref().expect("only what there is PTX of is asked for").load_function(name)
     }
 
+    /// Checks some exact values of a chunk by the host's, which are off by an ulp of `f64` or, near zeros, a thousand.
+    fn check_exact(&self, function: &Function, chunk: usize) -> Result<(), DriverError> {
+        // Elsewhere in each chunk.
+        let at = chunk * 1_048_573;
+        let some = at..at + 1024;
+        let arguments = self.stream.clone_dtoh(&self.arguments.slice(some.clone()))?;
+        for ([x, y], exact) in arguments.into_iter().zip(self.stream.clone_dtoh(&self.exact.slice(some))?) {
+            let host = (function.host)(x.into(), y.into());
+            let is_close = (exact - host).abs() <= 2f64.powi(-40) * host.abs().max(f64::MIN_POSITIVE);
+            let is_same = exact == host || exact.is_nan() && host.is_nan() || is_close;
+            assert!(is_same, "{}({x:?}, {y:?}) is {exact:e}, or {host:e}", function.name);
+        }
+        Ok(())
+    }
+
     /// Answers to questions on a function.
     fn answers(&mut self, function: &Function, questions: &[Question]) -> Result<Vec<Found>, DriverError> {
         let (fill, compare) = (self.kernel(0, "arguments")?, self.kernel(0, "compare")?);
@@ -158,6 +173,7 @@ impl Gpu {
                 let mut launch = self.stream.launch_builder(&exact);
                 launch.arg(&self.arguments).arg(&mut self.exact).arg(&CHUNK).launch(GRID)?;
             }
+            self.check_exact(function, (first / u64::from(CHUNK)) as usize)?;
             for (i, (question, worst)) in questions.iter().zip(&mut worst).enumerate() {
                 let Bound { measure, low, high, .. } = question.bound;
                 // SAFETY: as above; a `Worst` is as many words, and zeros are one.

@@ -108,11 +108,12 @@ impl Errors {
 /// belongs; a NaN in the wrong place is infinitely far.
 pub fn ulps(value: f32, exact: f64) -> f64 {
     const LEAST: u64 = (1023 - 126) << 52;
+    const GREATEST: u64 = (1023 + 127) << 52;
     if exact.is_nan() || value.is_nan() || exact.is_infinite() {
         let same = exact.is_nan() && value.is_nan() || f64::from(value) == exact;
         return if same { 0.0 } else { f64::INFINITY };
     }
-    let exponent = (exact.to_bits() & 0x7ff0_0000_0000_0000).max(LEAST);
+    let exponent = (exact.to_bits() & 0x7ff0_0000_0000_0000).clamp(LEAST, GREATEST);
     let ulp = f64::from_bits(exponent - (23 << 52));
     let two_to_128 = 2f64.powi(128);
     let value = if value.is_infinite() { two_to_128.copysign(f64::from(value)) } else { f64::from(value) };
