@@ -1,7 +1,8 @@
 //! A small JSON reader, for what `cargo metadata` prints, and writer, for `cargo optix`.
 //!
 //! It is here because this crate is a build dependency of every program with shaders: reading a few fields must not
-//! cost them a serialisation framework.
+//! cost them a serialisation framework. `serde_json`, without its default features, takes a processor 5.6 s to compile,
+//! where all of this library takes 3.9 s.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
