@@ -15,6 +15,10 @@ use crate::util::{self, toml_string, write_if_changed};
 /// told apart in a lock file.
 pub(crate) const SOFTWARE: &str = "optix-libm-software";
 
+/// Its functions that are called, not inlined: long code for rare arguments.
+#[cfg(feature = "cli")]
+pub(crate) const OUT_OF_LINE: [&str; 1] = ["libm::sin_cos::reduce_large"];
+
 const SOURCES: [(&str, &str); 7] = [
     ("src/lib.rs", include_str!("../templates/libm/lib.rs")),
     ("src/exp.rs", include_str!("../templates/libm/exp.rs")),

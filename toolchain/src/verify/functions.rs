@@ -6,6 +6,7 @@ use super::callables;
 use super::facts::Pipeline;
 use super::finding::{Finding, Rule};
 use super::trace;
+use crate::libm::OUT_OF_LINE;
 use crate::ptx::demangled;
 
 /// Whether a call goes through a pointer that is not that of a callable.
@@ -46,7 +47,9 @@ pub(super) fn check(module: &Module<'_>, pipelines: &[Pipeline], allowed: &[Stri
         let callers: Vec<String> = callers
             .map(|caller| item(caller.name).unwrap_or_else(|| format!("`{}`", demangled(caller.name))))
             .collect();
-        if !callers.is_empty() && !allowed.iter().any(|allowed| path.contains(allowed.as_str())) {
+        let meant =
+            OUT_OF_LINE.contains(&path.as_str()) || allowed.iter().any(|allowed| path.contains(allowed.as_str()));
+        if !callers.is_empty() && !meant {
             let message = format!("is called, not inlined, by {}", callers.join(" and by "));
             findings.push(Finding::error(Rule::Call, format!("function `{path}`"), message));
         }

@@ -13,7 +13,7 @@
 //! | each trace call has its ray type's payload, SBT offset, stride and miss index | [`Rule::Trace`] |
 //! | payload words are read and written only by programs that may | [`Rule::PayloadWord`] |
 //! | no local memory but for payloads that travel by pointer | [`Rule::LocalMemory`] |
-//! | no function calls but those that the caller allows | [`Rule::Call`] |
+//! | no function calls but those that the caller allows, and of the toolkit's own maths for rare arguments | [`Rule::Call`] |
 //! | callables are called, and exceptions thrown, by programs that may | [`Rule::Callable`] |
 //! | nothing is missing that OptiX would have to find elsewhere | [`Rule::Module`] |
 //!

@@ -232,6 +232,11 @@ fn memory_and_calls() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].to_string().contains("64 bytes in local memory, 48 of them for payloads"), "{}", found[0]);
 
+    // The toolkit's own function for large angles is meant to be called.
+    let large = PTX.replace("_ZN4demo6helper17h0123456789abcdefE", "_RNvNtCs9Z4UwyQbes2_4libm7sin_cos12reduce_large");
+    assert_ne!(large, PTX);
+    assert_eq!(check(&large, &[demo()], &[]), []);
+
     let found = check(PTX, &[demo()], &[]);
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!(found[0].item, "function `demo::helper`");
