@@ -4,7 +4,8 @@ pub mod fast;
 
 use glam::Vec3;
 
-/// Functions of `f32` that the standard library has and `core` has not, under the same names.
+/// Functions of `f32` that the standard library has and `core` has not, under the same names. Those that are not here, such as
+/// `powi`, are found by a check for the host, which knows the standard library, and not by the compiler for the device.
 ///
 /// On the host they are the standard library's, on the device the toolchain's, in `f32` arithmetic. Both are within the ulps
 /// (units of the last place) of the true value that docs/maths.md states; [`fast`] has less precise ones.
@@ -68,6 +69,39 @@ pub trait Math {
     fn round_ties_even(self) -> Self;
     /// `self * a + b` with one rounding.
     fn mul_add(self, a: Self, b: Self) -> Self;
+    /// What [`trunc`](Math::trunc) leaves, with the sign of `self`.
+    fn fract(self) -> Self;
+    /// The quotient whose remainder is [`rem_euclid`](Math::rem_euclid).
+    fn div_euclid(self, divisor: Self) -> Self;
+    /// The remainder that is not negative: from 0 up to the divisor's absolute value, which only rounding reaches. It takes the
+    /// longer, the larger the quotient; within a period `x - x.floor()` is a few instructions.
+    fn rem_euclid(self, divisor: Self) -> Self;
+}
+
+#[cfg(target_arch = "nvptx64")]
+mod device {
+    pub use libm::*;
+
+    // What follows is computed as in the standard library.
+
+    #[inline(always)]
+    pub fn fractf(x: f32) -> f32 {
+        x - truncf(x)
+    }
+
+    pub fn div_euclidf(x: f32, y: f32) -> f32 {
+        let quotient = truncf(x / y);
+        match fmodf(x, y) < 0.0 {
+            true if y > 0.0 => quotient - 1.0,
+            true => quotient + 1.0,
+            false => quotient,
+        }
+    }
+
+    pub fn rem_euclidf(x: f32, y: f32) -> f32 {
+        let remainder = fmodf(x, y);
+        if remainder < 0.0 { remainder + y.abs() } else { remainder }
+    }
 }
 
 macro_rules! math {
@@ -76,7 +110,7 @@ macro_rules! math {
             #[inline(always)]
             fn $name(self $(, $arg: f32)*) -> $result {
                 #[cfg(target_arch = "nvptx64")]
-                return libm::$device(self $(, $arg)*);
+                return device::$device(self $(, $arg)*);
                 #[cfg(not(target_arch = "nvptx64"))]
                 return f32::$name(self $(, $arg)*);
             }
@@ -111,6 +145,9 @@ math! {
     round() -> f32 = roundf;
     round_ties_even() -> f32 = rintf;
     mul_add(a, b) -> f32 = fmaf;
+    fract() -> f32 = fractf;
+    div_euclid(divisor) -> f32 = div_euclidf;
+    rem_euclid(divisor) -> f32 = rem_euclidf;
 }
 
 /// Sine and cosine of `turns` full turns, for |turns| up to 2^20: within 1.5e-7 of the true value, on both machines.
