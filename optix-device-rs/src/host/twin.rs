@@ -41,7 +41,9 @@ impl KeepAlive {
 /// Host data that becomes device data: a struct without views is its own twin, a buffer is the twin of a view.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` can't be handed to a device",
-    label = "is not the host twin of any device type"
+    label = "is not the host twin of any device type",
+    note = "a struct `Paint` that holds views is filled in on the host as `PaintHost`, with a buffer or the like in each view's place; any \
+            other needs `#[derive(SbtRecord)]` or `#[derive(DeviceData)]`"
 )]
 pub trait Twin {
     /// What programs see.
