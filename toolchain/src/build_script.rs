@@ -24,6 +24,8 @@ fn try_compile(shaders: &Shaders) -> Result<(), Error> {
     let out_dir = variable("OUT_DIR")?;
     let mut shaders = shaders.clone();
     shaders.path = variable("CARGO_MANIFEST_DIR")?.join(&shaders.path);
+    // `debug` is the profile `dev` and those that inherit it.
+    shaders.checks.get_or_insert(std::env::var_os("PROFILE").is_some_and(|profile| profile == "debug"));
     println!("cargo::rerun-if-env-changed=OPTIX_RUSTC");
 
     let area = util::target_dir(&out_dir).join("optix");

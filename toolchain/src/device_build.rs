@@ -2,20 +2,23 @@
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
+use crate::blame::{self, Culprit, Missing};
 use crate::cargo;
 use crate::compiler::{DeviceCompiler, TARGET};
 use crate::dep_info;
 use crate::error::{Doing, Error};
 use crate::libm::{PatchedLibm, SOFTWARE};
 use crate::lock;
+use crate::messages;
 use crate::metadata::{Package, Workspace};
 #[cfg(feature = "nvvm")]
 use crate::nvvm;
 use crate::options::{Codegen, Shaders};
 use crate::ptx;
 use crate::rust_cuda::{self, Backend};
-use crate::sysroot::{self, Recipe};
+use crate::sysroot::Sysroot;
 use crate::util;
 use crate::wrapper::{PROFILE, Wrapper};
 
@@ -65,14 +68,14 @@ pub(crate) struct Session<'a> {
     /// The lock file of the user's workspace, where there is one.
     user_lock: PathBuf,
     resolve: Wrapper,
-    sysroot: PathBuf,
+    sysroot: Sysroot,
     /// Where `rustc` loads its code generator from.
     backend: Option<Backend>,
     _lock: File,
 }
 
 impl<'a> Session<'a> {
-    /// Finds compiler and packages, and makes the sysroot.
+    /// Finds compiler and packages.
     pub fn open(shaders: &'a Shaders, area: &Path) -> Result<Self, Error> {
         let (package, workspace) = shader_crate(&shaders.path)?;
         let backend = if shaders.codegen == Codegen::RustCuda { Some(Backend::find()?) } else { None };
@@ -91,12 +94,8 @@ impl<'a> Session<'a> {
         let resolve = Wrapper::write(own.join("resolve"), shaders, &package, None)?;
         lock::seed(&resolve.dir, &std::fs::read_to_string(&user_lock).unwrap_or_default())?;
         let graph = Workspace::with_dependencies(&resolve.dir)?;
-        let recipe = Recipe {
-            compiler: &compiler,
-            arch: &shaders.arch,
-            generator: backend.as_ref().map(|backend| backend.flags(shaders)),
-        };
-        let sysroot = sysroot::ensure(&recipe, &area, shaders.quiet)?;
+        let generator = backend.as_ref().map(|backend| backend.flags(shaders));
+        let sysroot = Sysroot::new(&compiler, &shaders.arch, generator, &area, shaders.quiet);
         Ok(Self { shaders, package, compiler, graph, own, area, user_lock, resolve, sysroot, backend, _lock: lock })
     }
 
@@ -107,7 +106,7 @@ impl<'a> Session<'a> {
 
     fn rustflags(&self) -> String {
         let mut flags = vec![
-            format!("--sysroot={}", self.sysroot.display()),
+            format!("--sysroot={}", self.sysroot.path.display()),
             // What device code needs from the compiler beyond stable Rust is given from outside, so that a shader
             // crate needs no `#![feature]` and compiles on the host with a stable compiler.
             "-Zcrate-attr=feature(abi_ptx,asm_experimental_arch)".into(),
@@ -130,21 +129,48 @@ impl<'a> Session<'a> {
 
     /// Compiles the crate and checks that OptiX could load it.
     pub fn build(&self) -> Result<Built, Error> {
-        // The packages of the graph, but for another libm.
-        let libm = PatchedLibm::write(&self.area, &self.graph.packages)?;
-        let wrapper = Wrapper::write(self.own.join("wrapper"), self.shaders, &self.package, libm.as_ref())?;
-        let mut locked = self.locked()?;
-        if let Some(libm) = &libm {
-            locked = lock::with_patched_libm(&locked, &libm.version, SOFTWARE);
-        }
-        lock::seed(&wrapper.dir, &locked)?;
+        self.compile().map_err(|error| {
+            let missing = match &error {
+                Error::Ptx { problem: ptx::Problem::Unresolved(names), .. } => {
+                    names.iter().map(|name| Missing::of_symbol(name)).collect()
+                }
+                Error::Aborted { .. } => vec![Missing::WideConversion],
+                _ => return error,
+            };
+            self.culprit(&missing).map_or(error, |culprit| Error::Missing(Box::new(culprit)))
+        })
+    }
+
+    /// Who uses what is missing; found by compiling again with line information.
+    fn culprit(&self, missing: &[Missing]) -> Option<Culprit> {
+        let shaders = self.shaders.clone().line_info(true).codegen(Codegen::Rustc).quiet(true);
+        let session;
+        let session = if self.shaders.key(self.package.dir()) == shaders.key(self.package.dir()) {
+            self
+        } else {
+            session = Session::open(&shaders, &self.area).ok()?;
+            &session
+        };
+        let wrapper = session.wrapper().ok()?;
+        let ir = session.own.join("blame.ll");
+        let mut cargo = session.cargo("rustc", &wrapper, &session.target_dir());
+        cargo.args(["--lib", "--"]).arg(format!("--emit=llvm-ir={}", ir.display()));
+        // It may fail in the same way, but after the IR.
+        let _ = cargo.stdout(Stdio::null()).stderr(Stdio::null()).status();
+        blame::culprit(&util::read(&ir).ok()?, missing, &session.graph.packages, &session.package)
+    }
+
+    fn compile(&self) -> Result<Built, Error> {
+        let wrapper = self.wrapper()?;
         let target_dir = self.target_dir();
+        self.make_sysroot(&wrapper, &target_dir)?;
         let (text, written) = match self.shaders.codegen {
             Codegen::Rustc => self.generate(&wrapper, &target_dir)?,
             Codegen::RustCuda => self.generate_by_rust_cuda(&wrapper, &target_dir)?,
             #[cfg(feature = "nvvm")]
             Codegen::Nvvm => self.generate_by_nvvm(&wrapper, &target_dir)?,
         };
+        let text = ptx::builtins::defined(text);
         let plain = optix_ptx::plain(&text);
         let module = optix_ptx::Module::read(&plain);
         ptx::check(&module).map_err(|problem| Error::Ptx { path: written.clone(), problem })?;
@@ -166,6 +192,18 @@ impl<'a> Session<'a> {
             text,
             inputs,
         })
+    }
+
+    /// The package that is compiled: that of the graph, but with another libm.
+    fn wrapper(&self) -> Result<Wrapper, Error> {
+        let libm = PatchedLibm::write(&self.area, &self.graph.packages)?;
+        let wrapper = Wrapper::write(self.own.join("wrapper"), self.shaders, &self.package, libm.as_ref())?;
+        let mut locked = self.locked()?;
+        if let Some(libm) = &libm {
+            locked = lock::with_patched_libm(&locked, &libm.version, SOFTWARE);
+        }
+        lock::seed(&wrapper.dir, &locked)?;
+        Ok(wrapper)
     }
 
     /// The PTX of rustc's own code generator, and where it is.
@@ -214,27 +252,35 @@ impl<'a> Session<'a> {
         Ok((text, ptx))
     }
 
+    /// Compiles the device's library crates, those that are not there. Proc macros need none of them, so cargo gets on
+    /// with these in the meantime.
+    fn make_sysroot(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(), Error> {
+        if !self.sysroot.is_made() {
+            let macros = self.graph.packages.iter().filter(|package| package.is_macro);
+            let macros: Vec<_> =
+                macros.map(|package| format!("--package={}@{}", package.name, package.version)).collect();
+            std::thread::scope(|scope| {
+                let core = scope.spawn(|| self.sysroot.make());
+                if !macros.is_empty() {
+                    // If it fails, it will fail again.
+                    let _ = cargo::run(self.cargo("build", wrapper, target_dir).args(macros), "compiling proc macros");
+                }
+                core.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            })?;
+        }
+        let uses_alloc =
+            || self.graph.ways(&self.package).iter().filter_map(|way| way.last()).any(|p| p.may_use_alloc());
+        if !self.sysroot.has_alloc() && uses_alloc() { self.sysroot.make_alloc() } else { Ok(()) }
+    }
+
     /// Has rustc emit `what` of the wrapper package to the file `to`.
     fn run_cargo(&self, wrapper: &Wrapper, target_dir: &Path, what: &str, to: &Path) -> Result<(), Error> {
         let run = || {
-            let mut command = cargo::command(&wrapper.dir);
-            command
-                .args(["rustc", "--lib", "--profile", PROFILE, "--target", TARGET])
-                .args(self.shaders.quiet.then_some("--quiet"))
-                .arg("--target-dir")
-                .arg(target_dir)
-                .arg("--")
-                .arg(format!("--emit={what}={}", to.display()))
-                .env("RUSTC", &self.compiler.rustc)
-                .env("RUSTC_BOOTSTRAP", "1")
-                // Also where a configuration file names a wrapper.
-                .env("RUSTC_WRAPPER", "")
-                .env("RUSTC_WORKSPACE_WRAPPER", "")
-                .env("CARGO_ENCODED_RUSTFLAGS", self.rustflags());
-            if self.backend.is_some() {
-                rust_cuda::prepare(&mut command);
-            }
-            cargo::run(&mut command, &format!("compiling {} for the device", self.package.name))
+            let mut command = self.cargo("rustc", wrapper, target_dir);
+            let emit = format!("--emit={what}={}", to.display());
+            let doing = format!("compiling {} for the device", self.package.name);
+            command.args(["--lib", messages::format(), "--", &emit]);
+            messages::run(&mut command, &doing, &self.graph, &self.package)
         };
         run()?;
         if !to.is_file() {
@@ -245,6 +291,26 @@ impl<'a> Session<'a> {
             run()?;
         }
         Ok(())
+    }
+
+    /// `cargo build` or `cargo rustc` of the wrapper package.
+    fn cargo(&self, subcommand: &str, wrapper: &Wrapper, target_dir: &Path) -> Command {
+        let mut command = cargo::command(&wrapper.dir);
+        command
+            .args([subcommand, "--profile", PROFILE, "--target", TARGET])
+            .args(self.shaders.quiet.then_some("--quiet"))
+            .arg("--target-dir")
+            .arg(target_dir)
+            .env("RUSTC", &self.compiler.rustc)
+            .env("RUSTC_BOOTSTRAP", "1")
+            // Also where a configuration file names a wrapper.
+            .env("RUSTC_WRAPPER", "")
+            .env("RUSTC_WORKSPACE_WRAPPER", "")
+            .env("CARGO_ENCODED_RUSTFLAGS", self.rustflags());
+        if self.backend.is_some() {
+            rust_cuda::prepare(&mut command);
+        }
+        command
     }
 }
 

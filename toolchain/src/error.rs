@@ -4,7 +4,9 @@ use std::fmt;
 use std::path::PathBuf;
 use std::process::ExitStatus;
 
+use crate::blame::Culprit;
 use crate::compiler::{MINIMUM, Rejected};
+use crate::messages::NeedsStd;
 use crate::ptx;
 
 /// Why a shader crate was not compiled. `Display` is one line: what is wrong and what to do.
@@ -34,6 +36,8 @@ pub enum Error {
         /// What it lacks.
         reason: String,
     },
+    /// A crate needs the standard library.
+    NeedsStd(NeedsStd),
     /// A `cargo` or `rustc` that this crate ran has failed; its own diagnostics went to standard error.
     Step {
         /// What it was doing.
@@ -41,6 +45,16 @@ pub enum Error {
         /// How it ended.
         status: ExitStatus,
     },
+    /// Cargo has failed without an error in Rust code: in a build script, or while generating code. Its messages went to
+    /// standard error.
+    Aborted {
+        /// What it was doing.
+        doing: String,
+        /// How it ended.
+        status: ExitStatus,
+    },
+    /// The shader crate uses what the device does not have.
+    Missing(Box<Culprit>),
     /// The PTX can't be loaded by OptiX.
     Ptx {
         /// Where it is.
@@ -99,7 +113,9 @@ impl fmt::Display for Error {
             Self::NotAShaderCrate { path, reason } => {
                 write!(f, "{} is no shader crate: {reason}", path.display())
             }
-            Self::Step { doing, status } => {
+            Self::NeedsStd(needs_std) => write!(f, "{needs_std}"),
+            Self::Missing(culprit) => write!(f, "{culprit}"),
+            Self::Step { doing, status } | Self::Aborted { doing, status } => {
                 write!(f, "{doing} failed ({status}); its own messages say why")
             }
             Self::Ptx { path, problem } => write!(f, "{}: {problem}", path.display()),

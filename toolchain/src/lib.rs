@@ -34,7 +34,9 @@
 //!
 //! Everything is under `<target directory>/optix`, which `cargo clean` removes.
 
+pub mod blame;
 mod build_script;
+mod cache;
 mod cargo;
 mod compiler;
 mod dep_info;
@@ -43,6 +45,7 @@ mod error;
 pub mod json;
 mod libm;
 mod lock;
+mod messages;
 mod metadata;
 #[cfg(feature = "nvvm")]
 pub mod nvvm;
@@ -58,9 +61,11 @@ pub mod inspect;
 pub mod verify;
 mod wrapper;
 
+pub use cache::cache;
 pub use compiler::{Candidate, DeviceCompiler, MINIMUM, Rejected, Release, Why};
 pub use device_build::Built;
 pub use error::Error;
+pub use messages::NeedsStd;
 pub use metadata::{Package, Workspace};
 pub use options::{Codegen, DEFAULT_ARCH, Shaders};
 

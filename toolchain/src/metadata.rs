@@ -5,10 +5,13 @@ use std::path::{Path, PathBuf};
 use crate::cargo;
 use crate::error::Error;
 use crate::json::Json;
+use crate::util;
 
 /// A package of a workspace or of a dependency graph.
 #[derive(Clone, Debug)]
 pub struct Package {
+    /// What cargo calls it in its messages.
+    pub(crate) id: String,
     /// Its name in the manifest: `my-shaders`.
     pub name: String,
     /// Its version.
@@ -23,16 +26,24 @@ pub struct Package {
     pub has_shaders: bool,
     /// Its features.
     pub features: Vec<String>,
+    /// Whether it is a proc macro.
+    pub(crate) is_macro: bool,
+    /// Those of its features that are on, in a dependency graph.
+    pub(crate) enabled: Vec<String>,
+    /// The ids of the packages that its code uses, in a dependency graph.
+    pub(crate) uses: Vec<String>,
 }
 
 impl Package {
     fn from_json(json: &Json) -> Option<Self> {
         const LIBRARIES: [&str; 5] = ["lib", "rlib", "dylib", "staticlib", "cdylib"];
-        let is_library = |target: &&Json| {
-            target.get("kind").items().iter().any(|kind| kind.str().is_some_and(|kind| LIBRARIES.contains(&kind)))
+        let is = |target: &Json, kinds: &[&str]| {
+            target.get("kind").items().iter().any(|kind| kind.str().is_some_and(|kind| kinds.contains(&kind)))
         };
-        let library = json.get("targets").items().iter().find(is_library);
+        let targets = json.get("targets").items();
+        let library = targets.iter().find(|target| is(target, &LIBRARIES));
         Some(Self {
+            id: json.get("id").str()?.to_string(),
             name: json.get("name").str()?.to_string(),
             version: json.get("version").str()?.to_string(),
             manifest: json.get("manifest_path").str()?.into(),
@@ -40,12 +51,32 @@ impl Package {
             library: library.and_then(|target| target.get("name").str()).map(|name| name.replace('-', "_")),
             has_shaders: json.get("metadata").get("optix").get("shaders") == &Json::Bool(true),
             features: json.get("features").members().map(|(name, _)| name.to_string()).collect(),
+            is_macro: targets.iter().any(|target| is(target, &["proc-macro"])),
+            enabled: Vec::new(),
+            uses: Vec::new(),
         })
+    }
+
+    /// Adds what a node of the dependency graph says.
+    fn with_node(mut self, nodes: &[Json]) -> Self {
+        if let Some(node) = nodes.iter().find(|node| node.get("id").str() == Some(&self.id)) {
+            let is_normal =
+                |dep: &&Json| dep.get("dep_kinds").items().iter().any(|kind| kind.get("kind") == &Json::Null);
+            let uses = node.get("deps").items().iter().filter(is_normal).filter_map(|dep| dep.get("pkg").str());
+            self.uses = uses.map(str::to_string).collect();
+            self.enabled = node.get("features").items().iter().filter_map(Json::str).map(str::to_string).collect();
+        }
+        self
     }
 
     /// The folder of the package.
     pub fn dir(&self) -> &Path {
         self.manifest.parent().unwrap_or(&self.manifest)
+    }
+
+    /// Whether its sources name the crate `alloc`.
+    pub(crate) fn may_use_alloc(&self) -> bool {
+        util::any_source(&self.dir().join("src"), &|text| text.contains("extern crate alloc"))
     }
 }
 
@@ -83,10 +114,28 @@ impl Workspace {
         let bad = |reason: String| Error::Output { of: "cargo metadata".into(), reason };
         let json = Json::parse(&text).map_err(bad)?;
         let path = |name: &str| json.get(name).str().map(PathBuf::from).ok_or_else(|| bad(format!("no `{name}`")));
+        let nodes = json.get("resolve").get("nodes").items();
+        let packages = json.get("packages").items().iter().filter_map(Package::from_json);
         Ok(Self {
             root: path("workspace_root")?,
             target_dir: path("target_directory")?,
-            packages: json.get("packages").items().iter().filter_map(Package::from_json).collect(),
+            packages: packages.map(|package| package.with_node(nodes)).collect(),
         })
+    }
+
+    /// The packages whose code is a part of the package `from`, each at the end of the shortest way to it.
+    pub(crate) fn ways(&self, from: &Package) -> Vec<Vec<&Package>> {
+        let mut ways: Vec<Vec<&Package>> = self.packages.iter().filter(|p| p.id == from.id).map(|p| vec![p]).collect();
+        let mut at = 0;
+        while let Some(way) = ways.get(at).cloned() {
+            let uses = way.last().map_or(&[][..], |last| &last.uses);
+            for package in self.packages.iter().filter(|package| uses.contains(&package.id) && !package.is_macro) {
+                if !ways.iter().flatten().any(|seen| seen.id == package.id) {
+                    ways.push(way.iter().copied().chain([package]).collect());
+                }
+            }
+            at += 1;
+        }
+        ways
     }
 }

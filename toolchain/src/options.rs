@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::device_build::{self, Built};
 use crate::error::Error;
+use crate::sysroot::PANIC;
 use crate::util;
 
 /// The architecture that PTX is written for unless [`Shaders::arch`] says otherwise.
@@ -46,6 +47,8 @@ pub struct Shaders {
     pub(crate) prec_div: bool,
     pub(crate) prec_sqrt: bool,
     pub(crate) line_info: bool,
+    /// None: as the profile of the program that is built.
+    pub(crate) checks: Option<bool>,
     pub(crate) features: Vec<String>,
     pub(crate) default_features: bool,
     pub(crate) quiet: bool,
@@ -64,6 +67,7 @@ impl Shaders {
             prec_div: true,
             prec_sqrt: true,
             line_info: false,
+            checks: None,
             features: Vec::new(),
             default_features: true,
             quiet: true,
@@ -110,6 +114,14 @@ impl Shaders {
     /// changes no instruction. Default: false.
     pub fn line_info(mut self, line_info: bool) -> Self {
         self.line_info = line_info;
+        self
+    }
+
+    /// Whether arithmetic that overflows and a `debug_assert!` that fails end the program, as `overflow-checks` and
+    /// `debug-assertions` of a profile. Default: in a build script as for the program, that is true for `dev` and profiles
+    /// that inherit it; otherwise false. Indices are checked always.
+    pub fn checks(mut self, on: bool) -> Self {
+        self.checks = Some(on);
         self
     }
 
@@ -162,18 +174,19 @@ impl Shaders {
         if !self.prec_sqrt {
             llvm.push_str(" -nvptx-prec-sqrtf32=0");
         }
-        vec![
+        let flags = [
             format!("-Ctarget-cpu={}", self.arch),
             // An indirect branch costs a GPU more than a few comparisons.
             "-Cjump-tables=no".into(),
             format!("-Cllvm-args={llvm}"),
-        ]
+        ];
+        flags.into_iter().chain(PANIC.map(String::from)).collect()
     }
 
     /// Tells builds apart whose intermediate files must not be mixed.
     pub(crate) fn key(&self, dir: &Path) -> String {
         let switches = [self.fmad, self.ftz, self.prec_div, self.prec_sqrt, self.line_info, self.default_features];
-        let switches = format!("{switches:?}{:?}", self.codegen);
+        let switches = format!("{switches:?}{:?}{:?}", self.checks, self.codegen);
         let dir = dir.to_string_lossy();
         let parts = [dir.as_ref(), self.arch.as_str(), switches.as_str()];
         util::hash(parts.into_iter().chain(self.features.iter().map(String::as_str)))

@@ -1,5 +1,6 @@
 //! Whether OptiX could load a PTX module, and what it keeps in memory.
 
+pub(crate) mod builtins;
 pub(crate) mod ftz;
 
 use std::fmt;

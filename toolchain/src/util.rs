@@ -22,6 +22,14 @@ pub(crate) fn create_dir(path: &Path) -> Result<(), Error> {
     fs::create_dir_all(path).doing(|| format!("cannot create the folder {}", path.display()))
 }
 
+/// Whether files can be made in a folder, which is made if it is not there.
+pub(crate) fn is_writable(dir: &Path) -> bool {
+    let probe = dir.join(format!(".writable-{}", std::process::id()));
+    let writable = create_dir(dir).is_ok() && fs::write(&probe, "").is_ok();
+    let _ = fs::remove_file(probe);
+    writable
+}
+
 pub(crate) fn read(path: &Path) -> Result<String, Error> {
     fs::read_to_string(path).doing(|| format!("cannot read {}", path.display()))
 }
@@ -40,6 +48,15 @@ pub(crate) fn copy_dir(from: &Path, to: &Path) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// Whether a Rust source in a folder, or in one inside of it, is such.
+pub(crate) fn any_source(dir: &Path, is: &dyn Fn(&str) -> bool) -> bool {
+    let entries = fs::read_dir(dir).into_iter().flatten().flatten().map(|entry| entry.path());
+    entries.into_iter().any(|path| match path.extension() {
+        Some(extension) if extension == "rs" => fs::read_to_string(&path).is_ok_and(|text| is(&text)),
+        _ => path.is_dir() && any_source(&path, is),
+    })
 }
 
 /// Waits for and takes an exclusive lock on `path`; it is released on drop, or when the process ends.

@@ -1,19 +1,25 @@
 //! The package around a shader crate.
 //!
 //! A device build needs a profile, a lock file and a patch of its own. Writing those into the user's manifest is out
-//! of the question, so a package of one line depends on the shader crate by path and re-exports it. Entry points and
-//! `global_asm!` of the shader crate, and of what it depends on, reach the PTX through link-time optimisation.
+//! of the question, so a small package depends on the shader crate by path and re-exports it. Entry points and
+//! `global_asm!` of the shader crate, and of what it depends on, reach the PTX through link-time optimisation. It also has
+//! the allocator that `rustc` expects of a final crate, although there is no heap.
 
 use std::path::PathBuf;
 
 use crate::error::Error;
 use crate::libm::PatchedLibm;
 use crate::metadata::Package;
-use crate::options::Shaders;
+use crate::options::{Codegen, Shaders};
 use crate::util::{toml_string, write_if_changed};
 
 /// The profile of device builds. It has a name of its own, because cargo configuration files may change `release`.
 pub(crate) const PROFILE: &str = "optix";
+
+const HEAP: &str = include_str!("../templates/heap.rs");
+
+/// The symbol that is left in the PTX where a program asks for memory.
+pub(crate) const NO_HEAP: &str = "__optix_no_heap";
 
 /// A wrapper package on disk.
 pub(crate) struct Wrapper {
@@ -37,10 +43,10 @@ impl Wrapper {
             reason: "it has no library; its code belongs into src/lib.rs".into(),
         })?;
         write_if_changed(&dir.join("Cargo.toml"), &manifest(&library, shaders, package, libm))?;
-        write_if_changed(
-            &dir.join("src/lib.rs"),
-            &format!("#![no_std]\n#![allow(unused_imports)]\npub use {user_library}::*;\n"),
-        )?;
+        // rustc_codegen_nvvm, which does not optimise over crates, would keep a heap that nobody uses.
+        let heap = if shaders.codegen == Codegen::RustCuda { "" } else { HEAP };
+        let library_source = format!("#![no_std]\n#![allow(unused_imports)]\npub use {user_library}::*;\n{heap}");
+        write_if_changed(&dir.join("src/lib.rs"), &library_source)?;
         Ok(Self { dir, library })
     }
 }
@@ -71,10 +77,11 @@ pub(crate) fn profile(shaders: &Shaders) -> String {
          panic = \"abort\"\n\
          debug = {debug}\n\
          strip = false\n\
-         overflow-checks = false\n\
-         debug-assertions = false\n\
+         overflow-checks = {checks}\n\
+         debug-assertions = {checks}\n\
          incremental = false\n",
         debug = if shaders.line_info { "\"line-directives-only\"" } else { "false" },
+        checks = shaders.checks.unwrap_or(false),
     )
 }
 

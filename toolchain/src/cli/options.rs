@@ -29,6 +29,9 @@ pub(super) struct Options {
     /// Keep line information, which changes no instruction: nvcc's `-lineinfo`.
     #[arg(long)]
     debug: bool,
+    /// Let arithmetic that overflows and a `debug_assert!` that fails end the program, as the profile `dev` does.
+    #[arg(long)]
+    checks: bool,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -45,13 +48,13 @@ enum Generator {
 impl Options {
     /// The crate in `path`, to be compiled so.
     pub fn shaders(&self, path: &Path, arch: &str) -> Shaders {
-        let Self { path: _, codegen, fmad, ftz, prec_div, prec_sqrt, debug } = *self;
+        let Self { path: _, codegen, fmad, ftz, prec_div, prec_sqrt, debug, checks } = *self;
         let codegen = match codegen {
             Generator::Rustc => Codegen::Rustc,
             Generator::Nvvm => Codegen::Nvvm,
             Generator::RustCuda => Codegen::RustCuda,
         };
-        let shaders = Shaders::new(path).arch(arch).codegen(codegen).line_info(debug);
+        let shaders = Shaders::new(path).arch(arch).codegen(codegen).line_info(debug).checks(checks);
         shaders.fmad(fmad).ftz(ftz).prec_div(prec_div).prec_sqrt(prec_sqrt)
     }
 }

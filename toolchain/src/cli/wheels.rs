@@ -13,7 +13,8 @@ const WITHOUT_DRIVER: (i32, i32) = (13, 0);
 /// Installs them into a folder of our own; nothing of the user's Python is touched.
 pub(super) fn install() -> Result<(), Failure> {
     let cuda = Driver::query().map_or(WITHOUT_DRIVER, |driver| driver.cuda);
-    let cache = nvvm::cache().ok_or_else(|| Failure("no HOME, so no cache folder; set XDG_CACHE_HOME".into()))?;
+    let cache =
+        optix_toolchain::cache().ok_or_else(|| Failure("no HOME, so no cache folder; set XDG_CACHE_HOME".into()))?;
     let folder = cache.join(format!("nvidia-nvvm-{}.{}", cuda.0, cuda.1));
     let packages = packages(cuda).ok_or_else(|| {
         Failure(format!("the driver here is for CUDA {}.{}; libNVVM's wheels begin with 12.0", cuda.0, cuda.1))

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::cache::cache;
+
 /// The environment variable that names the libNVVM to use.
 pub const CHOICE: &str = "OPTIX_NVVM";
 
@@ -36,13 +38,6 @@ pub fn libdevice(library: &Path) -> Option<PathBuf> {
         .find(|file| file.is_file())
 }
 
-/// Where `cargo optix setup` puts NVIDIA's wheels, one folder a package and version. None: the user has no home.
-pub fn cache() -> Option<PathBuf> {
-    let variable = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    let cache = variable("XDG_CACHE_HOME").or_else(|| Some(variable("HOME")?.join(".cache")));
-    Some(cache?.join("cargo-optix"))
-}
-
 /// The files `path` in what `cargo optix setup --nvvm` has installed, those of the newest CUDA last.
 #[cfg(feature = "cli")]
 pub(crate) fn cached(path: &str) -> Vec<PathBuf> {
@@ -50,7 +45,7 @@ pub(crate) fn cached(path: &str) -> Vec<PathBuf> {
     roots.map(|root| root.join(path)).filter(|path| path.exists()).collect()
 }
 
-/// The folders of packages in the cache.
+/// The folders of packages in the cache, one a package and version.
 fn cached_packages() -> Vec<PathBuf> {
     cache().map(|cache| list(&cache, "nvidia-nvvm")).unwrap_or_default()
 }

@@ -27,7 +27,7 @@ mod tests;
 pub use driver::{PtxVersion, choose};
 #[cfg(feature = "cli")]
 pub(crate) use find::cached;
-pub use find::{cache, libdevice, libraries};
+pub use find::{libdevice, libraries};
 pub(crate) use generate::{options, ptx, translated};
 pub use library::{Failure, Library};
 pub use refusal::Refusal;

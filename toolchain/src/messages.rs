@@ -1,0 +1,94 @@
+//! What `rustc` says while cargo compiles for the device.
+
+use std::fmt;
+use std::io::{BufRead, BufReader, IsTerminal};
+use std::process::{Command, Stdio};
+
+use crate::error::{Doing, Error};
+use crate::json::Json;
+use crate::metadata::{Package, Workspace};
+
+/// Cargo's option for what [`run`] reads.
+pub(crate) fn format() -> &'static str {
+    if std::io::stderr().is_terminal() {
+        "--message-format=json-diagnostic-rendered-ansi"
+    } else {
+        "--message-format=json"
+    }
+}
+
+/// Runs a cargo that prints its messages in our [`format`], and shows them as they come. A crate that needs the standard
+/// library becomes an error that names it; `graph` has the packages of the shader crate `from`.
+pub(crate) fn run(command: &mut Command, doing: &str, graph: &Workspace, from: &Package) -> Result<(), Error> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let mut cargo = command.stdout(Stdio::piped()).spawn().doing(|| format!("cannot run {program}"))?;
+    let (mut without_std, mut has_error) = (Vec::<String>::new(), false);
+    for line in cargo.stdout.take().into_iter().flat_map(|out| BufReader::new(out).lines()).map_while(Result::ok) {
+        // What is not JSON was printed by a build script or a proc macro.
+        let Ok(json) = Json::parse(&line) else { continue };
+        let (message, package) = (json.get("message"), json.get("package_id").str().unwrap_or_default());
+        has_error |= message.get("level").str() == Some("error");
+        if message.get("message").str() == Some("can't find crate for `std`") {
+            without_std.push(package.to_string());
+        }
+        // Without the standard library, nothing else that is said of a crate is of use.
+        if let Some(text) = message.get("rendered").str().filter(|_| !without_std.iter().any(|id| id == package)) {
+            eprint!("{text}");
+        }
+    }
+    let status = cargo.wait().doing(|| format!("cannot run {program}"))?;
+    match without_std.first() {
+        _ if status.success() => Ok(()),
+        Some(id) => Err(Error::NeedsStd(NeedsStd::new(graph, from, id))),
+        None if has_error => Err(Error::Step { doing: doing.to_string(), status }),
+        None => Err(Error::Aborted { doing: doing.to_string(), status }),
+    }
+}
+
+/// A crate that can't be compiled for the device because it needs the standard library.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NeedsStd {
+    /// Its name and version: `rayon 1.11.0`.
+    pub package: String,
+    /// The names of the packages from the shader crate to this one, both included.
+    pub way: Vec<String>,
+    /// The feature of it that asks for the standard library, where one does.
+    pub feature: Option<String>,
+}
+
+impl NeedsStd {
+    fn new(graph: &Workspace, from: &Package, id: &str) -> Self {
+        const STD: [&str; 2] = ["std", "use_std"];
+        let is_to = |way: &Vec<&Package>| way.last().is_some_and(|last| last.id == id);
+        let way = graph.ways(from).into_iter().find(is_to).unwrap_or_default();
+        let package = way.last();
+        let feature = package.and_then(|package| package.enabled.iter().find(|on| STD.contains(&on.as_str())));
+        Self {
+            package: package.map_or_else(|| id.to_string(), |package| format!("{} {}", package.name, package.version)),
+            feature: feature.cloned(),
+            way: way.iter().map(|package| package.name.clone()).collect(),
+        }
+    }
+}
+
+impl fmt::Display for NeedsStd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` needs the standard library, which the device does not have", self.package)?;
+        if let Some(feature) = &self.feature {
+            write!(f, ", for its feature `{feature}`")?;
+        }
+        let [_, dependency, ..] = &self.way[..] else {
+            return f.write_str(
+                "; put `#![no_std]` at the top of its src/lib.rs, and take from `core` what it takes from `std`",
+            );
+        };
+        if self.way.len() > 2 {
+            write!(f, " ({})", self.way.join(" uses "))?;
+        }
+        write!(
+            f,
+            "; take `{dependency}` with `default-features = false`, or another crate, or use it on the host only: \
+             `[target.'cfg(not(target_arch = \"nvptx64\"))'.dependencies]`"
+        )
+    }
+}
