@@ -1,11 +1,22 @@
 //! Typed views of device memory: what a `Slice<T>` field of parameters or records is inside a program.
 //!
 //! An index out of range ends the program (a trap on the device, an error with the launch index on the CPU); no access
-//! is outside the buffer. Memory that programs write is shared by all launch indices: writes of one may be seen by
+//! is outside the buffer. See [below](#checks) for what that costs. Memory that programs write is shared by all launch indices: writes of one may be seen by
 //! another at any time until the launch ends (guide 6.2), but are never torn below 32 bits.
 //!
 //! Views come from the host, in parameters and records, and travel in payloads and attributes, whose words are loaded only
 //! where they were stored ([`Words::load`]).
+//!
+//! # Checks
+//!
+//! A check is one comparison and one predicated trap, without a branch, and no load waits for it. To have fewer:
+//!
+//! - Let an element be what is read together. A `Slice<[u32; 3]>` of triangles has one check where a `Slice<u32>` has three,
+//!   and one field of a struct costs what all of them do.
+//! - Put a table whose size is known into a parameter or record as an array. An index that is a constant, or that the compiler
+//!   can bound (`table[i & 7]` of eight), has no check.
+//! - Where the index is in range for a reason that the compiler does not see, [`Slice::get_unchecked`] leaves the check to builds
+//!   with debug assertions, so the profile decides.
 
 use crate::data::DeviceData;
 use crate::words::Words;
@@ -176,6 +187,19 @@ macro_rules! linear_view {
                 // SAFETY: in range, and `from_raw` promised `len` valid elements.
                 unsafe { read((self.address as *const T).add(index as usize)) }
             }
+
+            /// The element at `index`, which is checked only where debug assertions are on.
+            ///
+            /// # Safety
+            /// `index` is less than the length.
+            #[inline(always)]
+            pub unsafe fn get_unchecked(self, index: u32) -> T {
+                if cfg!(debug_assertions) {
+                    check($what, u64::from(index), self.len);
+                }
+                // SAFETY: in range, says the caller, and `from_raw` promised `len` valid elements.
+                unsafe { read((self.address as *const T).add(index as usize)) }
+            }
         }
     };
 }
@@ -202,6 +226,19 @@ impl<T: Element> SliceMut<T> {
     pub fn set(self, index: u32, value: T) {
         check("SliceMut", u64::from(index), self.len);
         // SAFETY: in range, and `from_raw` promised `len` valid elements.
+        unsafe { write((self.address as *mut T).add(index as usize), value) }
+    }
+
+    /// Sets the element at `index`, which is checked only where debug assertions are on.
+    ///
+    /// # Safety
+    /// `index` is less than the length.
+    #[inline(always)]
+    pub unsafe fn set_unchecked(self, index: u32, value: T) {
+        if cfg!(debug_assertions) {
+            check("SliceMut", u64::from(index), self.len);
+        }
+        // SAFETY: in range, says the caller, and `from_raw` promised `len` valid elements.
         unsafe { write((self.address as *mut T).add(index as usize), value) }
     }
 }

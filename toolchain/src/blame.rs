@@ -29,6 +29,10 @@ pub enum Missing {
     Heap,
     /// The function of this name.
     Function(String),
+    /// Calls through pointers.
+    Pointers,
+    /// A function that calls itself, and device functions.
+    Recursion,
     /// Conversions between floats and 128-bit integers.
     WideConversion,
 }
@@ -58,6 +62,10 @@ impl fmt::Display for Culprit {
         match what {
             Missing::Heap => write!(f, "the device has no heap, and {at} allocates")?,
             Missing::Function(name) => write!(f, "nothing on the device defines `{name}`, which {at} calls")?,
+            Missing::Pointers => write!(f, "OptiX does not call functions through pointers, as {at} does")?,
+            Missing::Recursion => {
+                write!(f, "OptiX does not let a recursive function call device functions, as {at} does")?
+            }
             Missing::WideConversion => {
                 write!(f, "the device can't convert between floats and 128-bit integers, as {at} does")?
             }
@@ -72,6 +80,10 @@ impl fmt::Display for Culprit {
             Missing::Function(_) => {
                 "; use another function, or `#[cfg(not(target_arch = \"nvptx64\"))]` where only the host calls it"
             }
+            Missing::Pointers => {
+                "; use generics, an enum or a callable in place of a `dyn` object or `fn` pointer, and format nothing"
+            }
+            Missing::Recursion => "; use a loop",
             Missing::WideConversion => "; convert by way of 64 bits",
         })
     }
@@ -81,8 +93,8 @@ impl fmt::Display for Culprit {
 /// `packages`; other code, such as the standard library's, is passed over. The shader crate is `own`.
 pub(crate) fn culprit(ir: &str, missing: &[Missing], packages: &[Package], own: &Package) -> Option<Culprit> {
     let ir = Ir::new(ir);
-    let (what, line) =
-        missing.iter().find_map(|what| Some((what, ir.lines.iter().position(|line| what.is_in(line))?)))?;
+    let find = |what: &Missing| (0..ir.lines.len()).find(|line| ir.uses(*line, what));
+    let (what, line) = missing.iter().find_map(|what| Some((what, find(what)?)))?;
     let places: Vec<(&Package, Place)> = ir.frames(line).filter_map(|frame| frame.place(packages)).collect();
     let (package, at) = places.first()?.clone();
     let from = places.into_iter().find(|(package, _)| package.id == own.id).map(|(_, place)| place);
@@ -93,21 +105,6 @@ impl Missing {
     /// What an unresolved symbol in PTX stands for.
     pub(crate) fn of_symbol(symbol: &str) -> Self {
         if symbol == NO_HEAP { Self::Heap } else { Self::Function(symbol.to_string()) }
-    }
-
-    /// Whether an instruction uses it.
-    fn is_in(&self, line: &str) -> bool {
-        let calls = |name: &str| line.contains("call ") && line.contains(&format!("@{name}("));
-        match self {
-            Self::Heap => calls(NO_HEAP),
-            Self::Function(name) => calls(name),
-            Self::WideConversion => {
-                let has = |parts: &[&str]| parts.iter().any(|part| line.contains(part));
-                let from = has(&[" uitofp ", " sitofp "]) && has(&[" i128 "]);
-                let to = has(&[" fptoui ", " fptosi "]) && has(&[" to i128"]);
-                from || to || (has(&["call "]) && has(&["@llvm.fptoui.sat.i128", "@llvm.fptosi.sat.i128"]))
-            }
-        }
     }
 }
 
@@ -134,14 +131,41 @@ impl<'a> Ir<'a> {
         Self { metadata: lines.iter().copied().filter_map(node).collect(), lines }
     }
 
+    /// Whether the instruction in a line uses what is missing.
+    fn uses(&self, line: usize, what: &Missing) -> bool {
+        let text = self.lines[line];
+        let has = |parts: &[&str]| parts.iter().any(|part| text.contains(part));
+        let calls = |name: &str| has(&["call "]) && names(text, name);
+        match what {
+            Missing::Heap => calls(&format!("@{NO_HEAP}")),
+            Missing::Function(name) => calls(&format!("@{name}")),
+            Missing::Recursion => has(&["call "]) && self.within(line).is_some_and(calls),
+            Missing::Pointers => {
+                let callee = text.split_once("call ").and_then(|(_, call)| call.split_once('('));
+                callee
+                    .is_some_and(|(callee, _)| callee.rsplit(' ').next().is_some_and(|callee| callee.starts_with('%')))
+            }
+            Missing::WideConversion => {
+                let from = has(&[" uitofp ", " sitofp "]) && has(&[" i128 "]);
+                let to = has(&[" fptoui ", " fptosi "]) && has(&[" to i128"]);
+                from || to || (has(&["call "]) && has(&["@llvm.fptoui.sat.i128", "@llvm.fptosi.sat.i128"]))
+            }
+        }
+    }
+
+    /// The symbol of the function or variable that a line belongs to.
+    fn within(&self, line: usize) -> Option<&'a str> {
+        let is_head = |line: &&&str| line.starts_with("define ") || line.starts_with('@');
+        self.lines[..=line].iter().rfind(is_head).and_then(|head| symbol(head))
+    }
+
     /// The functions that the instruction in a line comes from, the nearest first: those that were inlined, and then those
     /// of what uses the function that it is in, directly or by a table.
     fn frames(&self, line: usize) -> impl Iterator<Item = Frame<'a>> {
         let mut lines = vec![line];
         let mut at = 0;
         while let Some(&line) = lines.get(at) {
-            let is_head = |line: &&&str| line.starts_with("define ") || line.starts_with('@');
-            if let Some(symbol) = self.lines[..=line].iter().rfind(is_head).and_then(|head| symbol(head)) {
+            if let Some(symbol) = self.within(line) {
                 let is_use =
                     |line: &str| !line.starts_with("define ") && !line.starts_with(symbol) && names(line, symbol);
                 let uses = self.lines.iter().enumerate().filter(|(_, line)| is_use(line)).map(|(line, _)| line);

@@ -20,7 +20,7 @@ pub(crate) const LIBRARY_PATH: &str = "LD_LIBRARY_PATH";
 pub(crate) const TARGET: &str = "nvptx64-nvidia-cuda";
 
 /// The oldest device compiler: the version this workspace's crates are written for.
-pub const MINIMUM: Release = Release { major: 1, minor: 90 };
+pub const MINIMUM: Release = Release { major: 1, minor: 95 };
 
 /// The version of a `rustc`, as far as it matters here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -135,13 +135,18 @@ impl DeviceCompiler {
 
     /// Whether this `rustc` can compile shaders.
     pub fn check(rustc: &Path) -> Result<Self, Rejected> {
+        Self::of_age(rustc, MINIMUM)
+    }
+
+    /// Whether this `rustc`, if it is that old or newer, can compile device code.
+    pub(crate) fn of_age(rustc: &Path, minimum: Release) -> Result<Self, Rejected> {
         let reject = |why| Rejected { rustc: rustc.to_path_buf(), why };
         let version = output(rustc, &["-vV"]).map_err(|e| reject(Why::DoesNotRun(e)))?;
         let field = |name: &str| version.lines().find_map(|line| line.strip_prefix(name)).map(str::trim);
         let release = field("release:")
             .and_then(Release::parse)
             .ok_or_else(|| reject(Why::DoesNotRun("it prints no release".into())))?;
-        if release < MINIMUM {
+        if release < minimum {
             return Err(reject(Why::TooOld(release)));
         }
         let sysroot = output(rustc, &["--print", "sysroot"]).map_err(|e| reject(Why::DoesNotRun(e)))?;

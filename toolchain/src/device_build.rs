@@ -134,6 +134,8 @@ impl<'a> Session<'a> {
                 Error::Ptx { problem: ptx::Problem::Unresolved(names), .. } => {
                     names.iter().map(|name| Missing::of_symbol(name)).collect()
                 }
+                Error::Ptx { problem: ptx::Problem::Pointers(_), .. } => vec![Missing::Pointers],
+                Error::Ptx { problem: ptx::Problem::Recursion(_), .. } => vec![Missing::Recursion],
                 Error::Aborted { .. } => vec![Missing::WideConversion],
                 _ => return error,
             };

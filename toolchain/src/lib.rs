@@ -23,16 +23,19 @@
 //! | step | module |
 //! | --- | --- |
 //! | find a `rustc` that has library sources and the PTX back end | `compiler` |
-//! | compile `core` for `nvptx64-nvidia-cuda`, once per compiler and architecture | `sysroot` |
+//! | compile `core`, and `alloc` where a crate names it, for `nvptx64-nvidia-cuda`: once per compiler and flags | `sysroot` |
 //! | write a wrapper package around the shader crate, so that its manifest and lock stay untouched | `wrapper` |
 //! | replace software `sqrt`, `floor`, `fma` .. by instructions | `libm` |
 //! | run cargo on the wrapper with the outer cargo's environment removed | `cargo` |
-//! | check that the PTX has entries and no unresolved symbol | [`mod@ptx`] |
+//! | show what `rustc` says, and name a crate that needs the standard library | `messages` |
+//! | check that the PTX has entries and nothing that OptiX does not run | [`mod@ptx`] |
+//! | if it has, find the crate, function and line that asks for it | [`blame`] |
 //!
 //! The module `verify`, of the feature `cli`, goes further: for `cargo optix verify` it compares the PTX with what the host
 //! computes from the same `pipeline!`. The module `inspect` is behind `cargo optix inspect`: what programs cost.
 //!
-//! Everything is under `<target directory>/optix`, which `cargo clean` removes.
+//! The device's `core` is in the user's cache folder ([`cache`]), or with the rest where that can't be written. Everything else is
+//! under `<target directory>/optix`, which `cargo clean` removes.
 
 pub mod blame;
 mod build_script;

@@ -5,7 +5,11 @@ pub(crate) mod ftz;
 
 use std::fmt;
 
-use optix_ptx::Module;
+use optix_ptx::{Call, Function, Module};
+
+/// What give the addresses of callables.
+pub(crate) const DIRECT: &str = "_optix_call_direct_callable";
+pub(crate) const CONTINUATION: &str = "_optix_call_continuation_callable";
 
 /// Why OptiX could not load a PTX module.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,6 +19,10 @@ pub enum Problem {
     NoEntry,
     /// It calls or reads what is defined nowhere.
     Unresolved(Vec<String>),
+    /// These functions call others through pointers, which are not those of callables.
+    Pointers(Vec<String>),
+    /// This function calls itself, perhaps by way of others, and OptiX's device functions.
+    Recursion(String),
     /// It is no PTX.
     NotPtx,
 }
@@ -31,6 +39,14 @@ impl fmt::Display for Problem {
                  `mem` comes from the compiler: 128-bit or 16-bit arithmetic, for example)",
                 names.join(", ")
             ),
+            Self::Pointers(names) => write!(
+                f,
+                "{} calls a function through a pointer, which OptiX does not allow; use generics, an enum or a callable",
+                names.join(", ")
+            ),
+            Self::Recursion(name) => {
+                write!(f, "{name} calls itself and device functions, which OptiX does not allow together; use a loop")
+            }
             Self::NotPtx => f.write_str("this is no PTX; `.version` or `.target` is missing"),
         }
     }
@@ -50,12 +66,18 @@ pub fn check(module: &Module<'_>) -> Result<(), Problem> {
     let variables = module.variables.iter().filter(|variable| variable.is_extern).map(|variable| variable.name);
     let unresolved = functions.chain(variables).filter(|name| !provided(name));
     let unresolved: Vec<_> = unresolved.map(str::to_string).collect();
+    let pointers: Vec<_> = module.defined().filter(|f| calls_pointers(f)).map(|f| f.name.to_string()).collect();
+    let recursive = module.defined().find(|function| is_recursive(module, function));
     if module.version.is_empty() || module.target.is_empty() {
         Err(Problem::NotPtx)
     } else if !unresolved.is_empty() {
         Err(Problem::Unresolved(unresolved))
     } else if module.entries().next().is_none() {
         Err(Problem::NoEntry)
+    } else if !pointers.is_empty() {
+        Err(Problem::Pointers(pointers))
+    } else if let Some(function) = recursive {
+        Err(Problem::Recursion(function.name.to_string()))
     } else {
         Ok(())
     }
@@ -78,6 +100,24 @@ pub fn local_memory(text: &str) -> Vec<(String, usize)> {
 #[cfg(feature = "cli")]
 pub(crate) fn demangled(symbol: &str) -> String {
     format!("{:#}", rustc_demangle::demangle(&symbol.replace("_$_", ".")))
+}
+
+/// Whether a call gives the address of a callable.
+pub(crate) fn is_callable_call(call: &Call<'_>) -> bool {
+    matches!(call.function, DIRECT | CONTINUATION)
+}
+
+/// Whether a function calls others through pointers. One that asks for callables may.
+fn calls_pointers(function: &Function<'_>) -> bool {
+    let calls = function.calls();
+    calls.iter().any(|call| call.function.starts_with('%')) && !calls.iter().any(is_callable_call)
+}
+
+/// Whether a function calls itself, perhaps by way of others, and device functions.
+fn is_recursive(module: &Module<'_>, function: &Function<'_>) -> bool {
+    let reached = module.reached(function.name);
+    let calls = |is: &dyn Fn(&str) -> bool| reached.iter().flat_map(|f| f.calls()).any(|call| is(call.function));
+    calls(&|name| name == function.name) && calls(&|name| name.starts_with("_optix_"))
 }
 
 /// What the OptiX and CUDA run times define: device functions, `printf` and `assert`.

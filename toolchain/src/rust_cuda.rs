@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::compiler::{Candidate, DeviceCompiler, LIBRARY_PATH};
+use crate::compiler::{Candidate, DeviceCompiler, LIBRARY_PATH, Release};
 use crate::error::Error;
 use crate::options::Shaders;
 use crate::wrapper::PROFILE;
@@ -18,6 +18,9 @@ pub const CHOICE: &str = "OPTIX_RUSTC_CODEGEN_NVVM";
 pub const INSTALL: &str = "build `rustc_codegen_nvvm` of https://github.com/Rust-GPU/Rust-CUDA, which needs the nightly of its \
     rust-toolchain.toml with the components rust-src, rustc-dev and llvm-tools-preview, LLVM 7 and a CUDA toolkit; then name \
     librustc_codegen_nvvm.so by OPTIX_RUSTC_CODEGEN_NVVM, or add its folder to LD_LIBRARY_PATH";
+
+/// The release of the oldest nightly that the generator's options were read for.
+const OLDEST: Release = Release { major: 1, minor: 90 };
 
 /// The generator and the compiler that it is for.
 #[derive(Clone, Debug)]
@@ -53,7 +56,7 @@ impl Backend {
         let candidate = Candidate::all().into_iter().find(has_driver);
         let candidate = candidate
             .ok_or_else(|| unusable(format!("is for a rustc with {driver}, which no installed toolchain has")))?;
-        let compiler = DeviceCompiler::check(&candidate.rustc)
+        let compiler = DeviceCompiler::of_age(&candidate.rustc, OLDEST)
             .map_err(|rejected| unusable(format!("is for a compiler that can't be used: {rejected}")))?;
         Ok(Self { library, compiler })
     }

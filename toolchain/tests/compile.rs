@@ -5,6 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
+use optix_toolchain::blame::Missing;
 use optix_toolchain::{Built, Error, Shaders, ptx};
 
 fn compile(shaders: &Path) -> Result<Built, Error> {
@@ -82,10 +83,9 @@ fn what_the_device_lacks_is_an_error() {
         "    unsafe extern \"C\" { fn missing(); }\n    #[unsafe(no_mangle)]",
     );
     let error = compile(&shaders).expect_err("`missing` is defined nowhere");
-    assert!(
-        matches!(&error, Error::Ptx { problem: ptx::Problem::Unresolved(names), .. } if names == &["missing"]),
-        "{error}"
-    );
+    let Error::Missing(culprit) = &error else { panic!("{error}") };
+    assert_eq!(culprit.what, Missing::Function("missing".into()));
+    assert_eq!(culprit.at.function, "__raygen__camera");
 
     common::edit(&shaders, "#[unsafe(no_mangle)]", "");
     let error = compile(&shaders).expect_err("there is no entry");

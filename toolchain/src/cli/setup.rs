@@ -28,17 +28,25 @@ pub(super) fn run() -> Result<DeviceCompiler, Failure> {
                     say!("device compiler: {}", describe(&compiler));
                     return Ok(compiler);
                 }
+                Err(Error::NoDeviceCompiler { rejected }) => {
+                    let rejected: Vec<_> = rejected.iter().map(ToString::to_string).collect();
+                    failed.push(format!("{name}: done, but {}", rejected.join(", and ")));
+                }
                 Err(error) => failed.push(format!("{name}: {error}")),
             },
             Err(reason) => failed.push(format!("{name}: {reason}")),
         }
     }
-    Err(Failure(format!(
-        "no device compiler could be installed ({}); run `rustup component add rust-src` where rustup works, or `{}` as \
-         root on Debian",
-        failed.join("; "),
+    Err(Failure(format!("no device compiler could be installed ({}); {}", failed.join("; "), by_hand())))
+}
+
+/// What a person can do.
+fn by_hand() -> String {
+    format!(
+        "by hand: `rustup component add rust-src`, with rustup of https://rustup.rs and a way to static.rust-lang.org; or on Debian \
+         `{}` as root; or another rustc {MINIMUM} or newer with its library sources, which OPTIX_RUSTC can name",
         apt_command()
-    )))
+    )
 }
 
 /// A device compiler in one line.

@@ -22,7 +22,10 @@ pub(super) fn install() -> Result<(), Failure> {
     let mut pip = Command::new("python3");
     pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--upgrade", "--target"]);
     setup::show(pip.arg(&folder).args(&packages)).map_err(|reason| {
-        Failure(format!("{reason}; it takes python3 with pip (`apt-get install python3-pip`) and a way to pypi.org"))
+        Failure(format!(
+            "{reason}; it takes python3 with pip (`apt-get install python3-pip`) and a way to pypi.org. By hand: install a CUDA \
+             toolkit (https://developer.nvidia.com/cuda-downloads), or name its libnvvm.so by OPTIX_NVVM"
+        ))
     })?;
     let library = nvvm::choose().map_err(|reason| Failure(format!("no libNVVM can be used: {reason}")))?;
     say!("libNVVM: {}", library.path.display());

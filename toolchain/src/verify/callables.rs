@@ -1,18 +1,13 @@
 //! Calls of callables, and throwing: that only programs do so that may (guide 13).
 
-use optix_ptx::{Call, Function};
+use optix_ptx::Function;
 
 use super::facts::{Kind, Pipeline, Program};
 use super::finding::{Finding, Rule};
 use super::place;
-const DIRECT: &str = "_optix_call_direct_callable";
-const CONTINUATION: &str = "_optix_call_continuation_callable";
-const THROW: &str = "_optix_throw_exception_";
+use crate::ptx::{CONTINUATION, DIRECT};
 
-/// Whether it gives the address of a callable.
-pub(super) fn is_call(call: &Call<'_>) -> bool {
-    matches!(call.function, DIRECT | CONTINUATION)
-}
+const THROW: &str = "_optix_throw_exception_";
 
 pub(super) fn check(
     function: &Function<'_>,

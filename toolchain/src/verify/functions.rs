@@ -2,16 +2,15 @@
 
 use optix_ptx::{Call, Function, Module};
 
-use super::callables;
 use super::facts::Pipeline;
 use super::finding::{Finding, Rule};
 use super::trace;
 use crate::libm::OUT_OF_LINE;
-use crate::ptx::demangled;
+use crate::ptx::{demangled, is_callable_call};
 
 /// Whether a call goes through a pointer that is not that of a callable.
 fn is_through_a_pointer(function: &Function<'_>, call: &Call<'_>) -> bool {
-    let is_callable = |other: &Call<'_>| callables::is_call(other) && other.results.contains(&call.function);
+    let is_callable = |other: &Call<'_>| is_callable_call(other) && other.results.contains(&call.function);
     call.function.starts_with('%') && !function.calls().iter().any(is_callable)
 }
 
