@@ -20,7 +20,7 @@ pub enum Codegen {
     /// `rustc`'s own NVPTX back end.
     #[default]
     Rustc,
-    /// NVIDIA's libNVVM, which nvcc uses as well, [loaded](crate::nvvm) at run time. Line information is not kept.
+    /// NVIDIA's libNVVM, which nvcc uses as well, [loaded](crate::nvvm) at run time.
     #[cfg(feature = "nvvm")]
     Nvvm,
     /// `rustc_codegen_nvvm` of the Rust-CUDA project, with the nightly that it is built for:

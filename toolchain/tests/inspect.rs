@@ -5,9 +5,9 @@ mod common;
 use std::path::Path;
 use std::process::Command;
 
-use optix_toolchain::Shaders;
 use optix_toolchain::inspect::{Class, programs, ptxas::Ptxas, with_source};
 use optix_toolchain::json::Json;
+use optix_toolchain::{Codegen, Error, Shaders};
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/typed");
 
@@ -26,9 +26,6 @@ fn the_goldens_cost_what_they_do() {
     assert_eq!(program("__raygen__Golden_caller").calls.get("_optix_trace_typed_32"), Some(&1));
     assert_eq!(program("__raygen__Golden_wide").parameters.count, 3);
 
-    let source = with_source(&built.text, |name| name.contains("Golden_shade")).expect("lines are known");
-    assert!(source.contains("typed/src/lib.rs:"), "{source}");
-
     let Some(ptxas) = Ptxas::find() else {
         eprintln!("the_goldens_cost_what_they_do: no registers: no ptxas");
         return;
@@ -42,6 +39,30 @@ fn the_goldens_cost_what_they_do() {
             assert!(usage.registers.is_some_and(|registers| (8..64).contains(&registers)), "{usage:?}");
             assert_eq!(usage.spill_stores, 0, "{usage:?}");
         }
+    }
+}
+
+/// Without line information there are as many instructions: it changes none.
+#[test]
+fn lines_are_known_through_both_generators() {
+    let test = "lines_are_known_through_both_generators";
+    if !common::can_compile(test) {
+        return;
+    }
+    for codegen in [Codegen::Rustc, Codegen::Nvvm] {
+        let shaders = Shaders::new(GOLDEN).codegen(codegen);
+        let build = |lines| shaders.clone().line_info(lines).compile_in(common::area());
+        let built = match build(true) {
+            Err(Error::NoNvvm(reason)) => {
+                eprintln!("{test}: not run, no libNVVM: {reason}");
+                continue;
+            }
+            built => built.expect("it compiles"),
+        };
+        let source = with_source(&built.text, |name| name.contains("Golden_shade")).expect("lines are known");
+        assert!(source.contains("typed/src/lib.rs:"), "{codegen:?}: {source}");
+        let count = |text: &str| programs(text).iter().map(|program| program.instructions()).collect::<Vec<_>>();
+        assert_eq!(count(&built.text), count(&build(false).expect("it compiles").text), "{codegen:?}");
     }
 }
 

@@ -88,6 +88,11 @@ pub(super) fn compare_exchange(
 }
 
 pub(super) fn fence(builder: &mut Builder<'_>, ordering: &Ordering) -> Result<(), Unknown> {
+    if ordering.scope == "singlethread" {
+        // For the compiler alone, which moves no memory access over this.
+        builder.asm_memory("", "", &Type::Void, &[]);
+        return Ok(());
+    }
     let kind = if ordering.order == "seq_cst" { "sc" } else { "acq_rel" };
     builder.asm_memory(&format!("fence.{kind}.{};", scope(&ordering.scope)?), "", &Type::Void, &[]);
     Ok(())

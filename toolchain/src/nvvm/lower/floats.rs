@@ -65,22 +65,21 @@ pub(super) fn function(builder: &mut Builder<'_>, name: &str, arguments: &[Typed
     if arguments[0].ty == Type::Half && matches!(name, "fma" | "fmuladd") {
         return Some(Err(Unknown::new("`fma` of `f16`").hint("use `f32` there")));
     }
-    let known = match name {
-        "sqrt" | "floor" | "ceil" | "copysign" | "fma" => native,
-        "fabs" | "trunc" | "rint" | "nearbyint" | "roundeven" | "maxnum" | "maximumnum" | "minnum" | "minimumnum" => {
-            of_nvvm
-        }
-        "round" => round,
-        "maximum" | "minimum" => with_nan,
-        "fmuladd" => |builder: &mut Builder<'_>, _: &str, a: &[Typed]| {
+    let known = match (name, arguments.len()) {
+        ("sqrt" | "floor" | "ceil", 1) | ("copysign", 2) | ("fma", 3) => native,
+        ("fabs" | "trunc" | "rint" | "nearbyint" | "roundeven", 1) => of_nvvm,
+        ("maxnum" | "maximumnum" | "minnum" | "minimumnum", 2) => of_nvvm,
+        ("round", 1) => round,
+        ("maximum" | "minimum", 2) => with_nan,
+        ("fmuladd", 3) => |builder: &mut Builder<'_>, _: &str, a: &[Typed]| {
             let product = builder.binary("fmul", &a[0], &a[1]);
             Ok(builder.binary("fadd", &product, &a[2]))
         },
-        "canonicalize" => |builder: &mut Builder<'_>, _: &str, a: &[Typed]| {
+        ("canonicalize", 1) => |builder: &mut Builder<'_>, _: &str, a: &[Typed]| {
             let name = format!("llvm.nvvm.mul.rn.{}", letter(&a[0].ty)?);
             builder.pure(&name, &a[0].ty, &[&a[0], &float(&a[0].ty, 1.0)])
         },
-        name if libdevice::knows(name, arguments.len()) => |builder: &mut Builder<'_>, name: &str, a: &[Typed]| {
+        (name, count) if libdevice::knows(name, count) => |builder: &mut Builder<'_>, name: &str, a: &[Typed]| {
             libdevice::call(builder, name, &a.iter().collect::<Vec<_>>())
         },
         _ => return None,

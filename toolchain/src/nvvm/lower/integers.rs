@@ -127,11 +127,34 @@ pub(super) fn with_overflow(
             let again = builder.cast(extend, &result, &wide);
             Overflowing { result, out: builder.compare("ne", &product, &again) }
         }
+        (_, 128) => checked_product(builder, signed, a, b),
         (_, bits) => {
             return Err(Unknown::new(format!("a checked multiplication of {bits} bits")).hint(NARROWER));
         }
     };
     Ok(builder.pair(&overflowing.result, &overflowing.out))
+}
+
+/// A product that fits if dividing it by one factor gives the other.
+fn checked_product(builder: &mut Builder<'_>, signed: bool, a: &Typed, b: &Typed) -> Overflowing {
+    let result = builder.binary("mul", a, b);
+    let (zero, one, minus_one) = (constant(&a.ty, 0), constant(&a.ty, 1), constant(&a.ty, -1));
+    let by_zero = builder.compare("eq", a, &zero);
+    let mut divisor = builder.select(&by_zero, &one, a);
+    let negates = builder.compare("eq", a, &minus_one);
+    if signed {
+        // The least number divided by -1 has no quotient, and by -1 no other product overflows.
+        divisor = builder.select(&negates, &one, &divisor);
+    }
+    let quotient = builder.binary(if signed { "sdiv" } else { "udiv" }, &result, &divisor);
+    let differs = builder.compare("ne", &quotient, b);
+    let not_zero = builder.compare("ne", a, &zero);
+    let mut out = builder.binary("and", &differs, &not_zero);
+    if signed {
+        let least = builder.compare("eq", b, &constant(&a.ty, i128::MIN));
+        out = builder.select(&negates, &least, &out);
+    }
+    Overflowing { result, out }
 }
 
 /// `uadd.sat` and its kin.

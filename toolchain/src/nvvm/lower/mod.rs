@@ -12,6 +12,7 @@ mod integers;
 mod intrinsics;
 mod libdevice;
 mod reduce;
+mod widths;
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -39,6 +40,7 @@ pub(super) fn module(module: &mut Module, text: &str) -> Result<bool, Refusal> {
         let replaced = function.name.starts_with("llvm.") || libdevice::of_symbol(&function.name).is_some();
         !function.blocks.is_empty() || !replaced
     });
+    module.functions.iter_mut().for_each(widths::widen);
     let needs_libdevice = called.keys().any(|name| name.starts_with(libdevice::PREFIX));
     module
         .functions

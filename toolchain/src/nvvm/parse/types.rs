@@ -13,7 +13,7 @@ impl Parser<'_, '_> {
     pub(super) fn is_type(&self) -> bool {
         match self.peek() {
             Token::Word(word) => {
-                matches!(word, "void" | "label" | "metadata" | "half" | "float" | "double" | "ptr")
+                matches!(word, "void" | "label" | "metadata" | "half" | "float" | "double" | "ptr" | "fp128" | "bfloat")
                     || integer(word).is_some()
             }
             Token::Punctuation(c) => matches!(c, '[' | '<' | '{'),

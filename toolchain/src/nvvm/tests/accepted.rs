@@ -27,6 +27,20 @@ const CONSTRUCTS: &[&str] = &[
         %6 = freeze i128 %5
         ret i128 %6
     }",
+    // Integers of other widths, as structs of some bytes are passed.
+    "define i48 @passed(i24 %0, i48 zeroext %1, ptr %2) {
+        %4 = call i24 @elsewhere(i24 %0, i40 5)
+        %5 = zext i24 %4 to i48
+        %6 = add i48 %5, %1
+        %7 = call i56 %2(i48 %6)
+        %8 = trunc i56 %7 to i48
+        ret i48 %8
+    }
+    define i24 @elsewhere(i24 %0, i40 %1) noinline {
+        %3 = trunc i40 %1 to i24
+        %4 = mul i24 %0, %3
+        ret i24 %4
+    }",
     "define half @halves(half %0, half %1) {
         %3 = fmul half %0, %1
         %4 = fneg half %3

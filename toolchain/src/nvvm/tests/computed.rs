@@ -132,9 +132,6 @@ macro_rules! integers {
                     ("umul", { let (r, o) = u.overflowing_mul(v); (r as $signed, o) }),
                 ];
                 for (name, (result, out)) in overflowing {
-                    if name.ends_with("mul") && bits == 128 {
-                        continue;
-                    }
                     let declaration = format!("declare {{ {0}, i1 }} @llvm.{name}.with.overflow.{0}({0}, {0})\n", $ty);
                     if !$cases.declared.contains(&declaration) {
                         $cases.declared.push(declaration);

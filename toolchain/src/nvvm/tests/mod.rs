@@ -5,8 +5,10 @@
 mod accepted;
 mod computed;
 mod fuzz;
+mod ir_of;
 mod lines;
 mod refused;
+mod whole;
 
 use super::{Dialect, Library, choose, libdevice, translate};
 
