@@ -77,14 +77,22 @@ fn function(function: &mut Function, called: &mut Called, own: &HashSet<String>,
     }
     let renamed = builder.into_renamed();
     for instruction in function.blocks.iter_mut().flat_map(|block| &mut block.instructions) {
+        let mut circle = false;
         instruction.op.values_mut(&mut |value| {
-            // A value may stand for one that stands for another; there are no circles, since each came later.
+            // A value may stand for one that stands for another. What is made of itself is no program.
+            let mut steps = 0;
             while let Value::Local(name) = value
                 && let Some(other) = renamed.get(name)
+                && !circle
             {
                 *value = other.clone();
+                steps += 1;
+                circle = steps > renamed.len();
             }
         });
+        if circle {
+            return Err(Unknown::new("a value that is made of itself").at(text, instruction.line, &function.name));
+        }
     }
     endless::mark(function);
     Ok(())

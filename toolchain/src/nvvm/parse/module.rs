@@ -252,7 +252,9 @@ impl Parser<'_, '_> {
         })?;
         let parameters: Vec<Argument> = parameters.into_iter().flatten().collect();
         while self.one_of(&VISIBILITY).is_some() {}
-        let attributes = self.function_attributes()?;
+        let mut attributes = self.function_attributes()?;
+        // libNVVM adds `readnone` to those that turn out to be so, and then refuses both. What calls say of themselves stays.
+        attributes.retain(|word| word != "inaccessiblememonly");
         let (blocks, debug) = (Vec::new(), None);
         let mut function =
             Function { name, linkage, kernel, result, parameters, variadic, attributes, debug, blocks, line };

@@ -39,6 +39,16 @@ fn refusals_say_function_instruction_and_way_out() {
 }
 
 #[test]
+fn a_value_that_is_made_of_itself_is_refused() {
+    let ir = "define i1 @f() {\n  %1 = call i1 @llvm.expect.i1(i1 %1, i1 true)\n  ret i1 %1\n}\n";
+    let refusal = translate(ir, Dialect::Llvm7).expect_err("a circle");
+    assert_eq!(
+        (refusal.reason.as_str(), refusal.instruction.as_str()),
+        ("a value that is made of itself", "ret i1 %1")
+    );
+}
+
+#[test]
 fn outside_of_functions_the_line_is_named() {
     for line in ["@a = alias i32, ptr @b", "@v = thread_local global i32 0", "declare bfloat @f()", "what is this"] {
         let refusal = translate(line, Dialect::Llvm7).expect_err(line);
