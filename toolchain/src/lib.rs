@@ -34,7 +34,7 @@
 //! The module `verify`, of the feature `cli`, goes further: for `cargo optix verify` it compares the PTX with what the host
 //! computes from the same `pipeline!`. The module `inspect` is behind `cargo optix inspect`: what programs cost.
 //!
-//! The device's `core` is in the user's cache folder ([`cache`]), or with the rest where that can't be written. Everything else is
+//! The device's `core` is in the user's cache folder ([`cache()`]), or with the rest where that can't be written. Everything else is
 //! under `<target directory>/optix`, which `cargo clean` removes.
 
 pub mod blame;
