@@ -18,10 +18,12 @@ mod calls;
 mod constants;
 mod flow;
 mod module;
+mod prototype;
 mod statement;
 
 pub use calls::{Call, Parts};
 pub use module::{Function, Module, Variable, is_callable};
+pub use prototype::Prototype;
 pub use statement::{Instruction, Statement, operands};
 
 /// The text with a blank for each byte of a comment and of a `.file` line, whose path may hold anything: what is found in

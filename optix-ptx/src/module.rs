@@ -4,9 +4,9 @@ use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
-use crate::Call;
 use crate::calls::calls;
 use crate::statement::{Statement, statements};
+use crate::{Call, Prototype};
 
 /// A module.
 #[derive(Clone, Debug, Default)]
@@ -53,6 +53,8 @@ pub struct Function<'a> {
     pub is_extern: bool,
     /// Whether it declares parameters.
     pub has_parameters: bool,
+    /// What it takes and gives, if that can be read.
+    pub prototype: Option<Prototype>,
     /// Where it is in the text: from its first directive to its closing brace.
     pub range: Range<usize>,
     /// What is between its braces.
@@ -137,6 +139,7 @@ impl<'a> Module<'a> {
 impl<'a> Function<'a> {
     /// The function whose head goes on with `rest` behind `.entry` or `.func`: result, name, parameters.
     fn read(item: &Item<'a>, begin: usize, word: &str, rest: &'a str, is_extern: bool) -> Option<Self> {
+        let prototype = Prototype::read(rest);
         let rest = match rest.trim_start().strip_prefix('(') {
             Some(result) => result.split_once(')')?.1,
             None => rest,
@@ -147,6 +150,7 @@ impl<'a> Function<'a> {
             is_entry: word == "entry" || is_callable(name),
             is_extern,
             has_parameters: rest.contains(".param"),
+            prototype,
             range: begin..item.end,
             body: item.block,
             statements: OnceCell::new(),

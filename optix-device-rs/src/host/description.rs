@@ -209,6 +209,7 @@ pub struct PipelineDescription {
     /// The greatest depth of nested trace calls, where `pipeline!` states one (`trace_depth: 4`); otherwise it follows
     /// from which programs trace which rays.
     pub trace_depth: Option<u32>,
-    /// The greatest depth of callables that call each other, where `pipeline!` states one (`callable_depth: 2`).
+    /// The most callables that run one inside of the other, where `pipeline!` states it (`callable_depth: 2`); otherwise it
+    /// follows from which programs call callables of which signatures.
     pub callable_depth: Option<u32>,
 }

@@ -2,7 +2,7 @@
 
 use crate::{Error, Result};
 use optix_device_rs::host::PipelineDescription;
-use optix_ptx::{Function, Module};
+use optix_ptx::{Function, Module, Prototype};
 use std::collections::BTreeSet;
 
 /// Deepest nesting of trace calls (guide 12).
@@ -11,8 +11,18 @@ const MAX_TRACE_DEPTH: u32 = 31;
 const MAX_CALLABLE_DEPTH: u32 = 31;
 
 const TRACE: &str = "_optix_trace_typed_32";
-const CALL_DIRECT: &str = "_optix_call_direct_callable";
-const CALL_CONTINUATION: &str = "_optix_call_continuation_callable";
+
+/// One of the two kinds of callables.
+struct CallableKind {
+    name: &'static str,
+    place: Place,
+    /// What the PTX calls to get the address of one.
+    call: &'static str,
+}
+
+const DIRECT: CallableKind = CallableKind { name: "direct", place: Place::Direct, call: "_optix_call_direct_callable" };
+const CONTINUATION: CallableKind =
+    CallableKind { name: "continuation", place: Place::Continuation, call: "_optix_call_continuation_callable" };
 
 /// A program that a launch can reach.
 pub(crate) struct Reached {
@@ -122,9 +132,12 @@ impl Depths {
                     "{continuation} continuation, {direct_from_state} direct, {direct_from_traversal} during traversal"
                 ),
                 match (description.callable_depth, programs) {
-                    (Some(_), _) => "stated in the pipeline's declaration, where callables call each other",
-                    (None, Some(_)) => "callables do not call each other",
                     (None, None) => "the most there is: without PTX it is not known which programs call",
+                    (Some(_), None) => "stated in the pipeline's declaration",
+                    (Some(_), Some(_)) => {
+                        "the longest chain of calls in the compiled programs, or what the declaration states if that is less"
+                    }
+                    (None, Some(_)) => "the longest chain of calls in the compiled programs",
                 }
                 .into(),
             );
@@ -137,28 +150,26 @@ impl Depths {
         description: &PipelineDescription,
         programs: Option<&[Program<'_, '_>]>,
     ) -> Result<(), String> {
-        let calls = |function: &str, from: fn(Place) -> bool| {
-            programs.is_none_or(|programs| programs.iter().any(|p| from(p.reached.place) && p.calls.contains(function)))
-        };
-        let depth = |kind: &str, nested: bool| match (description.callable_depth, programs) {
-            (Some(depth), _) if nested => Ok(depth),
-            (None, None) => Ok(MAX_CALLABLE_DEPTH),
-            _ if !nested => Ok(1),
-            _ => Err(format!(
-                "its {kind} callables call each other, so nothing bounds how deep: state `callable_depth: N` in `pipeline!`"
-            )),
-        };
         let is_state = |place| matches!(place, Place::RayGen | Place::Shading(_) | Place::Continuation);
-        if calls(CALL_CONTINUATION, is_state) {
-            self.continuation = depth("continuation", calls(CALL_CONTINUATION, |place| place == Place::Continuation))?;
-        }
-        let nested = calls(CALL_DIRECT, |place| place == Place::Direct);
-        if calls(CALL_DIRECT, |place| matches!(place, Place::Traversal(_))) {
-            self.direct_from_traversal = depth("direct", nested)?;
-        }
-        if calls(CALL_DIRECT, is_state) {
-            self.direct_from_state = depth("direct", nested)?;
-        }
+        let Some(programs) = programs else {
+            let depth = description.callable_depth.unwrap_or(MAX_CALLABLE_DEPTH);
+            (self.continuation, self.direct_from_traversal, self.direct_from_state) = (depth, depth, depth);
+            return Ok(());
+        };
+        let depth = |kind: &CallableKind, from: fn(Place) -> bool| {
+            nesting(programs, kind, from, description.callable_depth).map_err(|name| {
+                let callable = description.callables.iter().find(|callable| callable.entry.name == name);
+                format!(
+                    "its {} callables call each other, and `{}` can come to be called inside of itself, so nothing bounds how \
+                     deep: state `callable_depth: N` in `pipeline!`, the most callables that run one inside of the other",
+                    kind.name,
+                    callable.map_or(name, |callable| callable.entry.function)
+                )
+            })
+        };
+        self.continuation = depth(&CONTINUATION, is_state)?;
+        self.direct_from_traversal = depth(&DIRECT, |place| matches!(place, Place::Traversal(_)))?;
+        self.direct_from_state = depth(&DIRECT, is_state)?;
         Ok(())
     }
 
@@ -175,6 +186,10 @@ struct Program<'e, 'a> {
     calls: BTreeSet<&'a str>,
     /// The ray types that it traces; `None` where one is not a constant.
     traces: Option<BTreeSet<usize>>,
+    /// What it takes and gives.
+    prototype: Option<Prototype>,
+    /// What the callables that it calls take and give; `None` where that can't be read.
+    called: Option<Vec<Prototype>>,
 }
 
 fn programs<'e, 'a>(entries: &'e [Reached], module: &Module<'a>) -> Result<Vec<Program<'e, 'a>>, String> {
@@ -187,7 +202,8 @@ fn programs<'e, 'a>(entries: &'e [Reached], module: &Module<'a>) -> Result<Vec<P
             ));
         }
         let calls = functions.iter().flat_map(|function| function.calls()).map(|call| call.function).collect();
-        Ok(Program { reached, calls, traces: traced(&functions) })
+        let prototype = functions[0].prototype.clone();
+        Ok(Program { reached, calls, traces: traced(&functions), prototype, called: called(&functions) })
     };
     entries.iter().map(program).collect()
 }
@@ -197,6 +213,43 @@ fn programs<'e, 'a>(entries: &'e [Reached], module: &Module<'a>) -> Result<Vec<P
 fn traced(functions: &[&Function<'_>]) -> Option<BTreeSet<usize>> {
     let calls = functions.iter().flat_map(|function| function.calls()).filter(|call| call.function == TRACE);
     calls.map(|call| Some((*call.values.first()?)?.trailing_zeros() as usize)).collect()
+}
+
+/// The prototypes by which functions call callables. `None` where one can't be read.
+fn called(functions: &[&Function<'_>]) -> Option<Vec<Prototype>> {
+    let is_callable = |name: &str| [&DIRECT, &CONTINUATION].iter().any(|kind| kind.call == name);
+    let calls = functions.iter().flat_map(|function| function.calls()).filter(|call| is_callable(call.function));
+    let prototypes =
+        functions.iter().map(|function| function.called_prototypes()).collect::<Option<Vec<_>>>()?.concat();
+    (prototypes.len() >= calls.count()).then_some(prototypes)
+}
+
+/// How deep callables of a kind nest below the programs that run at these places: the longest path over callables, where a
+/// program leads to those that take and give what it calls with. Without an end to that it is what is stated; else the error is
+/// the name of a callable that leads to itself.
+fn nesting(
+    programs: &[Program<'_, '_>],
+    kind: &CallableKind,
+    from: fn(Place) -> bool,
+    stated: Option<u32>,
+) -> Result<u32, &'static str> {
+    let callables: Vec<_> = programs.iter().filter(|program| program.reached.place == kind.place).collect();
+    let called = |program: &Program<'_, '_>| -> BTreeSet<usize> {
+        // What can't be read may be any.
+        let fits = |callable: &Program<'_, '_>| match (&callable.prototype, &program.called) {
+            (Some(prototype), Some(called)) => called.contains(prototype),
+            _ => true,
+        };
+        let all = if program.calls.contains(kind.call) { callables.len() } else { 0 };
+        (0..all).filter(|&index| fits(callables[index])).collect()
+    };
+    let leads_to: Vec<_> = callables.iter().map(|callable| called(callable)).collect();
+    let roots = programs.iter().filter(|program| from(program.reached.place)).flat_map(called).collect();
+    match (longest(&leads_to, &roots, &mut vec![Visit::New; callables.len()]), stated) {
+        (Ok(depth), stated) => Ok(stated.map_or(depth, |stated| stated.min(depth))),
+        (Err(_), Some(stated)) => Ok(stated),
+        (Err(callable), None) => Err(callables[callable].reached.name),
+    }
 }
 
 /// How deep trace calls nest: the longest path from ray generation over ray types, where a ray type leads to those that its
@@ -234,31 +287,46 @@ fn trace(description: &PipelineDescription, programs: Option<&[Program<'_, '_>]>
             _ => continue,
         };
         to.extend(traced(program)?);
-        if program.calls.contains(CALL_CONTINUATION) {
+        if program.calls.contains(CONTINUATION.call) {
             to.extend(&by_callables);
         }
     }
-    match longest(&leads_to, &roots, &mut vec![false; rays]) {
-        Some(depth) => Ok((depth, "the longest chain of trace calls in the compiled programs".into())),
-        None => Err(
-            "its programs trace rays recursively, so nothing bounds the trace depth: state `trace_depth: N` in `pipeline!`"
-                .into(),
-        ),
+    match longest(&leads_to, &roots, &mut vec![Visit::New; rays]) {
+        Ok(depth) => Ok((depth, "the longest chain of trace calls in the compiled programs".into())),
+        Err(ray) => Err(format!(
+            "its programs trace rays recursively, and a ray `{}` can lead to another, so nothing bounds the trace depth: state \
+             `trace_depth: N` in `pipeline!`",
+            description.rays[ray].payload.name
+        )),
     }
 }
 
-/// The longest path from any of `from`; `None` if there is a cycle.
-fn longest(leads_to: &[BTreeSet<usize>], from: &BTreeSet<usize>, on_path: &mut Vec<bool>) -> Option<u32> {
+/// What is known of a node.
+#[derive(Clone, Copy)]
+enum Visit {
+    New,
+    OnPath,
+    /// The longest path from here.
+    Done(u32),
+}
+
+/// The longest path from any of `from`; the error is a node that leads to itself.
+fn longest(leads_to: &[BTreeSet<usize>], from: &BTreeSet<usize>, visits: &mut [Visit]) -> Result<u32, usize> {
     let mut depth = 0;
-    for &ray in from {
-        if on_path[ray] {
-            return None;
-        }
-        on_path[ray] = true;
-        depth = depth.max(1 + longest(leads_to, &leads_to[ray], on_path)?);
-        on_path[ray] = false;
+    for &node in from {
+        let below = match visits[node] {
+            Visit::OnPath => return Err(node),
+            Visit::Done(below) => below,
+            Visit::New => {
+                visits[node] = Visit::OnPath;
+                let below = longest(leads_to, &leads_to[node], visits)?;
+                visits[node] = Visit::Done(below);
+                below
+            }
+        };
+        depth = depth.max(1 + below);
     }
-    Some(depth)
+    Ok(depth)
 }
 
 #[cfg(test)]
@@ -270,12 +338,13 @@ mod tests {
         let set = |items: &[usize]| items.iter().copied().collect::<BTreeSet<_>>();
         let path = |edges: &[&[usize]], roots: &[usize]| {
             let edges: Vec<_> = edges.iter().map(|e| set(e)).collect();
-            longest(&edges, &set(roots), &mut vec![false; edges.len()])
+            longest(&edges, &set(roots), &mut vec![Visit::New; edges.len()])
         };
-        assert_eq!(path(&[&[1], &[]], &[0]), Some(2));
-        assert_eq!(path(&[&[], &[]], &[0, 1]), Some(1));
-        assert_eq!(path(&[&[1], &[0]], &[0]), None);
-        assert_eq!(path(&[&[1], &[1]], &[]), Some(0));
+        assert_eq!(path(&[&[1], &[]], &[0]), Ok(2));
+        assert_eq!(path(&[&[], &[]], &[0, 1]), Ok(1));
+        assert_eq!(path(&[&[1], &[0]], &[0]), Err(0));
+        assert_eq!(path(&[&[1], &[1]], &[]), Ok(0));
+        assert_eq!(path(&[&[1, 2], &[2], &[]], &[0, 2]), Ok(3));
     }
 
     /// Depths of a pipeline with one ray type, whose programs are these: when each runs, and its code.
@@ -306,8 +375,14 @@ mod tests {
         let description = PipelineDescription { trace_depth: stated[0], callable_depth: stated[1], ..TEST };
         let mut text = String::new();
         for (_, name, code) in programs {
-            let head = if name.contains("callable") { "func" } else { "entry" };
-            text.push_str(&format!(".visible .{head} {name}()\n{{\n{code}\n}}\n"));
+            text.push_str(&match name.split_once("__of_a_word") {
+                Some(_) => format!(
+                    ".visible .func  (.param .align 4 .b8 func_retval0[4]) {name}(\n.param .align 4 .b8 {name}_param_0[4]\n)\n"
+                ),
+                None if name.contains("callable") => format!(".visible .func {name}()\n"),
+                None => format!(".visible .entry {name}()\n"),
+            });
+            text.push_str(&format!("{{\n{code}\n}}\n"));
         }
         let entries: Vec<_> = programs.iter().map(|&(place, name, _)| Reached { name, place }).collect();
         Depths::new(&description, &entries, Some(&Module::read(&text)), &mut |_, _, _| {})
@@ -321,6 +396,8 @@ mod tests {
     }
 
     const DIRECT: &str = "call (%rd1), _optix_call_direct_callable, (%r1);";
+    const DIRECT_OF_A_WORD: &str = "call (%rd1), _optix_call_direct_callable, (%r1);\n\
+        prototype_0 : .callprototype (.param .align 4 .b8 _[4]) _ (.param .align 4 .b8 _[4]);";
     const CONTINUATION: &str = "call (%rd1), _optix_call_continuation_callable, (%r1);";
     const TRACE_RAY: &str = "call (%r1), _optix_trace_typed_32, (1, %rd1);";
 
@@ -366,6 +443,23 @@ mod tests {
         // What is stated counts only where callables nest.
         let leaf = (Place::Direct, "__direct_callable__d", "");
         assert_eq!(depths(&[raygen, leaf], [None, Some(3)]).unwrap().direct_from_state, 1);
+    }
+
+    #[test]
+    fn chains_of_callables_are_as_deep_as_their_signatures_allow() {
+        let raygen = (Place::RayGen, "__raygen__a", DIRECT);
+        let upper = (Place::Direct, "__direct_callable__d", DIRECT_OF_A_WORD);
+        let lower = (Place::Direct, "__direct_callable__e__of_a_word", "");
+        assert_eq!(depths(&[raygen, upper, lower], [None; 2]).unwrap().direct_from_state, 2);
+        assert_eq!(depths(&[raygen, upper, lower], [None, Some(5)]).unwrap().direct_from_state, 2);
+        let anyhit = (Place::Traversal(0), "__anyhit__b", DIRECT_OF_A_WORD);
+        let found = depths(&[raygen, anyhit, upper, lower], [None; 2]).unwrap();
+        assert_eq!((found.direct_from_traversal, found.direct_from_state), (1, 2));
+        let again = (Place::Direct, "__direct_callable__e__of_a_word", DIRECT_OF_A_WORD);
+        let error = depths(&[raygen, upper, again], [None; 2]).unwrap_err();
+        assert!(error.contains("inside of itself") && error.contains("callable_depth: N"), "{error}");
+        // Nothing calls it.
+        assert_eq!(depths(&[upper, again], [None; 2]).unwrap().direct_from_state, 0);
     }
 
     #[test]
