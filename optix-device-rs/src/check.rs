@@ -4,11 +4,21 @@
 
 use crate::attributes::{Attributes, Triangles};
 use crate::payload::{Part, Payload};
-use crate::program::{AccelHandle, Face, HitKind, PrimitiveType, Transform, TransformHandle};
+use crate::program::{AccelHandle, Face, HitKind, InstanceHandle, PrimitiveType, Transform, TransformHandle};
 use crate::ray::{Ray, RayFlags, Traversable};
 use crate::spawn::SurfacePoint;
 use core::fmt::Debug;
 use glam::{Vec2, Vec3};
+
+// ---- Views ---------------------------------------------------------------------------------------------------------
+
+#[cfg(target_arch = "nvptx64")]
+pub use crate::data::DeviceData as View;
+#[cfg(not(target_arch = "nvptx64"))]
+pub use crate::host::View;
+
+/// A field that is taken for a view is one.
+pub const fn view<V: View>() {}
 
 // ---- Payload parts -------------------------------------------------------------------------------------------------
 
@@ -320,6 +330,32 @@ impl RayFlags {
     }
 }
 
+/// A handle through which programs read what is in a structure, of which there is none.
+#[diagnostic::on_unimplemented(
+    message = "what is in a structure is not read through `{Self}`",
+    label = "it tells which structure it is, and not what is in it",
+    note = "read an `Instances` or a `TriangleVertices` of the launch parameters or of a record: on the host `build_with_instances()` and `build_with_triangles()` give what to put there (guide 13.9, 13.12)"
+)]
+pub trait Readable {}
+impl Traversable {
+    #[doc(hidden)]
+    pub fn get<C>(self, _: &C, _: u32) -> InstanceHandle<'static>
+    where
+        for<'never> Self: Readable, // as above
+    {
+        unreachable!()
+    }
+}
+impl AccelHandle<'_> {
+    #[doc(hidden)]
+    pub fn get<C>(self, _: &C, _: u32, _: u32) -> [Vec3; 3]
+    where
+        Self: Readable,
+    {
+        unreachable!()
+    }
+}
+
 /// A view that programs write through.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is read-only",
@@ -338,24 +374,32 @@ impl<T> crate::view::Slice<T> {
 }
 
 /// Hits on triangles.
+///
+/// # Safety
+/// As the name says: other hits have no triangle to ask about.
 #[diagnostic::on_unimplemented(
     message = "hits that carry `{Self}` are not hits on triangles",
     label = "only hits on triangles have barycentrics, a face, vertices and a surface point (guide 13.4, 13.9)",
     note = "read what the intersection program reported: `hit.attributes()`; in a program for any kind of hit, ask for `Triangles` in its context"
 )]
-pub trait OnTriangles {}
-impl OnTriangles for Triangles {}
+pub unsafe trait OnTriangles {}
+// SAFETY: the attributes of the built-in intersection.
+unsafe impl OnTriangles for Triangles {}
 
 // ---- Pipelines -----------------------------------------------------------------------------------------------------
 
 /// All intersection programs of a hit group report the same attributes.
+///
+/// # Safety
+/// Both types are one: the words of one are read as the other.
 #[diagnostic::on_unimplemented(
     message = "the intersection programs of one hit group report different hits: `{Self}` and `{Other}`",
     label = "its programs report `{Self}` for this ray type and `{Other}` for the first one",
     note = "hits of one geometry carry the same attributes for every ray type: use one intersection program, or one attribute type"
 )]
-pub trait SameHits<Other> {}
-impl<T> SameHits<T> for T {}
+pub unsafe trait SameHits<Other> {}
+// SAFETY: one type.
+unsafe impl<T> SameHits<T> for T {}
 
 /// Two attribute types are one.
 pub const fn same_hits<A: SameHits<B>, B>() {}

@@ -19,7 +19,7 @@ use glam::{
 #[diagnostic::on_unimplemented(
     message = "`{Self}` can't cross from host to device",
     label = "has no layout that host and device share",
-    note = "use numbers, glam vectors, arrays, `Slice` and its kin, or `#[derive(DeviceData)]` with `#[repr(C)]` on your struct"
+    note = "use numbers (`u32`, not `usize`, whose size is the machine's), glam vectors, arrays, `Slice` and its kin, or `#[derive(DeviceData)]` with `#[repr(C)]` on your struct"
 )]
 pub unsafe trait DeviceData: Copy + 'static {
     /// Writes the value's bytes to `bytes`, which is `size_of::<Self>()` long and zero: padding stays zero.
@@ -176,8 +176,8 @@ unsafe impl DeviceData for Traversable {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` can't be a plain field that crosses from host to device",
     label = "neither plain data nor known to be a view",
-    note = "plain data are numbers, glam vectors, arrays of these, and your `#[repr(C)]` structs of these with `#[derive(Clone, Copy, DeviceData)]`",
-    note = "if the type holds a view (`Slice` and its kin, `Traversable`, `Callable`), perhaps under another name, put `#[view]` on the field"
+    note = "plain data are numbers (`u32`, not `usize`, whose size is the machine's), glam vectors, arrays of these, and your `#[repr(C)]` structs of these with `#[derive(Clone, Copy, DeviceData)]`",
+    note = "if the type holds a view (`Slice`, `Traversable`, `Instances`, `Callable` and their kin), perhaps under another name, put `#[view]` on the field"
 )]
 pub trait Plain: DeviceData {
     /// [`DeviceData::write_to`].

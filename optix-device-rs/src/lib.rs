@@ -63,6 +63,7 @@ extern crate self as optix_device_rs;
 #[cfg(not(target_arch = "nvptx64"))]
 extern crate std;
 
+pub mod accel;
 pub mod attributes;
 pub mod callable;
 #[doc(hidden)]

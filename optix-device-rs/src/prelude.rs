@@ -1,5 +1,6 @@
 //! What a shader crate uses: `use optix_device_rs::prelude::*;`.
 
+pub use crate::accel::{Instances, TriangleVertices};
 pub use crate::attributes::{Attributes, Custom, Triangles};
 pub use crate::callable::{Callable, Callables, Continuation, Direct};
 pub use crate::data::DeviceData;
@@ -9,8 +10,8 @@ pub use crate::params::LaunchParams;
 pub use crate::payload::Payload;
 pub use crate::pipeline::{HasHitGroup, HasRay, Pipeline, Throws};
 pub use crate::program::{
-    AnyHit, CallsContinuation, CallsDirect, ClosestHit, ContinuationCallable, DirectCallable, Exception, Face, HitKind,
-    InstanceHandle, Intersection, Miss, PrimitiveType, RayGen, Transform, TransformHandle,
+    AnyHit, CallsContinuation, CallsDirect, ClosestHit, Context, ContinuationCallable, DirectCallable, Exception, Face,
+    HitKind, InstanceHandle, Intersection, Miss, PrimitiveType, RayGen, Transform, TransformHandle,
 };
 pub use crate::ray::{AnyHitMode, CullFaces, Decision, Ray, RayFlags, Traversable};
 pub use crate::record::SbtRecord;

@@ -32,7 +32,7 @@ use glam::UVec2;
 #[diagnostic::on_unimplemented(
     message = "`{Self}` can't be an element of a device buffer",
     label = "not plain data",
-    note = "use numbers, glam vectors, arrays of these, or `#[derive(Element)]` with `#[repr(C)]` on your struct of these"
+    note = "use numbers (`u32`, not `usize`, whose size is the machine's), glam vectors, arrays of these, or `#[derive(Element)]` with `#[repr(C)]` on your struct of these"
 )]
 pub unsafe trait Element: DeviceData {
     /// The size, where only an element will do; for the derive.

@@ -21,7 +21,7 @@ pub(crate) trait Backend: Any + Send + Sync {
     /// Builds a geometry acceleration structure.
     fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel>;
     /// Builds an instance acceleration structure.
-    fn build_ias(&self, instances: &[InstanceInput]) -> Result<BuiltAccel>;
+    fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel>;
     /// Makes a pipeline ready to launch.
     fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable) -> Result<Box<dyn Linked>>;
 }
@@ -45,6 +45,8 @@ pub(crate) struct GasInput {
     pub kind: GeometryKind,
     pub inputs: Vec<BuildInput>,
     pub compact: bool,
+    /// Whether programs read its vertices by handle.
+    pub random_vertex_access: bool,
 }
 
 /// One build input: a geometry with its records.
@@ -54,6 +56,13 @@ pub(crate) struct BuildInput {
     pub record_has_anyhit: Vec<bool>,
     /// Per primitive: its record; none with a single record.
     pub record_of_primitive: Option<Vec<u32>>,
+}
+
+/// What an IAS is built of.
+pub(crate) struct IasInput {
+    pub instances: Vec<InstanceInput>,
+    /// Whether programs read its instances by handle.
+    pub random_instance_access: bool,
 }
 
 /// An instance of an acceleration structure.

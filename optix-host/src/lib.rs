@@ -24,7 +24,7 @@ pub use glam;
 #[cfg(feature = "cust")]
 #[cfg_attr(docsrs, doc(cfg(feature = "cust")))]
 pub use optix::cust;
-pub use optix_device_rs::host::{Buffer, Buffer2d, MemoryError, World};
+pub use optix_device_rs::host::{Buffer, Buffer2d, InstanceTable, MemoryError, TriangleTable, World};
 pub use pipeline::{Launch, Pipeline, PipelineBuilder};
 pub use scene::{Aabb, Accel, Boxes, Geometry, Instance, Material, Scene, TriangleMesh};
 

@@ -70,7 +70,8 @@ impl<P: PipelineType> Pipeline<P> {
         if size > 1 << 30 || dimensions.iter().any(|&d| d as u64 > 1 << 30) {
             return Err(error(format!("its dimensions {w} x {h} x {d} are more than 2^30 (guide 12)")));
         }
-        let mut keep = KeepAlive::default();
+        // SAFETY: the launch that is given the views keeps the owners.
+        let mut keep = unsafe { KeepAlive::new() };
         let device_params = params.lower(&mut keep);
         if let Some(what) = keep.foreign(self.device.backend.id()) {
             return Err(error(format!("its parameters hold a {what} of another device")));

@@ -38,19 +38,25 @@ pub fn device_data(model: &Struct) -> TokenStream {
             #write(&__field, &mut __bytes[__AT..__AT + ::core::mem::size_of::<#ty>()]);
         }}
     });
-    let (touch, copy) = (touch(model), copy_bound(ident));
+    let (touch, bounds) = (touch(model), struct_bounds(model));
+    let views = model.fields.iter().filter(|field| field.view).map(|field| {
+        let (ty, span) = (&field.ty, place_of(&field.ty));
+        let krate = moved(krate, span);
+        quote_spanned!(span=> const _: () = #krate::check::view::<#ty>();)
+    });
     quote! {
         #allow
         const _: () = {
             // SAFETY: the layout is C's, each field has a layout that host and device share, and padding is not written.
             #[automatically_derived]
-            unsafe impl #krate::data::DeviceData for #ident #copy {
+            unsafe impl #krate::data::DeviceData for #ident #bounds {
                 #[inline]
                 fn write_to(&self, __bytes: &mut [::core::primitive::u8]) {
                     #(#writes)*
                 }
             }
             #touch
+            #(#views)*
         };
     }
 }
@@ -59,6 +65,23 @@ pub fn device_data(model: &Struct) -> TokenStream {
 pub fn copy_bound(ident: &Ident) -> TokenStream {
     let span = place_of(ident);
     quote_spanned!(span=> where #ident: ::core::marker::Copy)
+}
+
+/// [`copy_bound`], and [`view_bounds`].
+pub fn struct_bounds(model: &Struct) -> TokenStream {
+    let (copy, views) = (copy_bound(&model.ident), view_bounds(model));
+    quote!(#copy, #views)
+}
+
+/// What `device_data` asserts once, of each view: so nothing that is made of the struct reports it again. With a lifetime,
+/// since rustc reports a plain bound that does not hold.
+fn view_bounds(model: &Struct) -> TokenStream {
+    let bounds = model.fields.iter().filter(|field| field.view).map(|field| {
+        let (ty, span) = (&field.ty, place_of(&field.ty));
+        let krate = moved(&model.krate, span);
+        quote_spanned!(span=> for<'__never> #ty: #krate::check::View,)
+    });
+    quote!(#(#bounds)*)
 }
 
 /// Uses every field, so that no lint calls a struct or field dead that only the other machine reads.
@@ -119,6 +142,7 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
         );
         return Twin { host: ident.clone(), items: TokenStream::new() };
     }
+    let (bounds, views) = (struct_bounds(model), view_bounds(model));
     let host = format_ident!("{}Host", model.name(), span = ident.span());
     let fields = model.fields.iter().map(|field| {
         let (vis, member, ty) = (&field.vis, &field.member, &field.ty);
@@ -164,8 +188,11 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
     let items = quote! {
         #[doc = #doc]
         #[cfg(not(target_arch = "nvptx64"))]
-        #[allow(missing_docs, unreachable_pub, private_interfaces, dead_code)]
-        #vis struct #host {
+        #[allow(missing_docs, unreachable_pub, private_interfaces, private_bounds, dead_code)]
+        #vis struct #host
+        where
+            #views
+        {
             #(#fields,)*
         }
         // So that a crate may name the twin without asking which machine it is compiled for.
@@ -177,20 +204,20 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
         #allow
         const _: () = {
             #[automatically_derived]
-            impl ::core::clone::Clone for #host {
+            impl ::core::clone::Clone for #host where #views {
                 fn clone(&self) -> Self {
                     #clone
                 }
             }
             #[automatically_derived]
-            impl #krate::host::Twin for #host {
+            impl #krate::host::Twin for #host #bounds {
                 type Device = #ident;
                 fn lower(&self, __keep: &mut #krate::host::KeepAlive) -> #ident {
                     #lowered
                 }
             }
             #[automatically_derived]
-            impl #krate::host::View for #ident {
+            impl #krate::host::View for #ident #bounds {
                 type Owner = #host;
                 fn of(__owner: &#host, __keep: &mut #krate::host::KeepAlive) -> Self {
                     #krate::host::Twin::lower(__owner, __keep)

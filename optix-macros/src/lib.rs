@@ -107,8 +107,8 @@ pub fn derive_payload(input: TokenStream) -> TokenStream {
 /// derive includes [`DeviceData`](macro@DeviceData).
 ///
 /// # Views and twins
-/// A field is a view if its type's name is `Slice`, `SliceMut`, `SliceMut2d`, `Traversable`, `Callable` or `Callables`, or an
-/// array of these. A view under another name, and a struct with views that derives `DeviceData`, needs `#[view]` on the
+/// A field is a view if its type's name is `Slice`, `SliceMut`, `SliceMut2d`, `Traversable`, `Instances`,
+/// `TriangleVertices`, `Callable` or `Callables`, or an array of these. A view under another name, and a struct with views that derives `DeviceData`, needs `#[view]` on the
 /// field; without it the field does not compile. A struct with views has a twin, `LambertHost`, with the same fields and visibilities; one
 /// without is its own. In a device build the twin's name stands for a type without values, so that `pub use
 /// materials::LambertHost;` needs no `#[cfg]`.
@@ -536,11 +536,13 @@ pub fn exception(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// - `throws: Enum`, optional: what programs may throw, an enum with [`UserException`](macro@UserException).
 /// - `exception: program`, optional: the program that is told of exceptions. Without it, but with `throws`, the first five
 ///   exceptions of a launch are printed by OptiX, and are complaints of the CPU's device.
-/// - `callable_depth: N`, 1 to 31, optional: how deep callables call each other, where they do.
+/// - `callable_depth: N`, 1 to 31, optional: the most callables that run one inside of the other. It follows from the programs
+///   and their signatures, unless a callable can come to be called inside of itself.
 /// - `trace_depth: N`, 0 to 31, optional: how deep trace calls nest, where it is known better than from the programs.
 /// - `crate: path`, optional: optix-device-rs under another name.
 ///
-/// A program is the path of a function with its kind's attribute, without type arguments.
+/// A program is the path of a function with its kind's attribute, without type arguments. "Expected type, found function" is
+/// what rustc says of one without the attribute.
 #[proc_macro]
 pub fn pipeline(input: TokenStream) -> TokenStream {
     pipeline::expand(input.into()).into()

@@ -1,6 +1,6 @@
 //! `#[launch_params]`.
 
-use crate::data::{device_data, docs_or, twin};
+use crate::data::{device_data, docs_or, struct_bounds, twin};
 use crate::shape::{Field, Repr, Struct};
 use crate::support::{Errors, allow, cfg_of, crate_argument, moved, name, place, place_of};
 use proc_macro2::TokenStream;
@@ -52,10 +52,10 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
     }
 }
 
-/// Takes out what only this macro understands.
+/// Takes out what only this macro understands, and `cfg`, which [`check`] has reported: what is made of the field needs it.
 fn strip(item: &mut ItemStruct) {
     for field in &mut item.fields {
-        field.attrs.retain(|a| !a.path().is_ident("bound") && !a.path().is_ident("view"));
+        field.attrs.retain(|a| !["bound", "view", "cfg"].iter().any(|word| a.path().is_ident(word)));
     }
 }
 
@@ -254,13 +254,13 @@ fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
         }
     });
     let address = format!("{{{{ .reg .b64 a; mov.b64 a, {symbol}; cvta.const.u64 {{v}}, a; }}}}");
-    let fields = model.fields.iter().map(|field| field_value(model, field));
+    let (fields, bounds) = (model.fields.iter().map(|field| field_value(model, field)), struct_bounds(model));
     quote! {
         #allow
         const _: () = {
             // SAFETY: symbol and fields are made from the struct.
             #[automatically_derived]
-            unsafe impl #krate::params::LaunchParams for #ident {
+            unsafe impl #krate::params::LaunchParams for #ident #bounds {
                 const NAME: &'static ::core::primitive::str = #name;
                 const SYMBOL: &'static ::core::primitive::str = #symbol;
                 const FIELDS: &'static [#krate::params::Field] = &[#(#fields),*];

@@ -1,6 +1,6 @@
 //! `#[derive(SbtRecord)]`.
 
-use crate::data::{copy_bound, device_data, twin};
+use crate::data::{device_data, struct_bounds, twin};
 use crate::shape::Struct;
 use crate::support::{Errors, allow, moved, place_of};
 use proc_macro2::TokenStream;
@@ -22,7 +22,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     let align = quote_spanned! {span=>
         const _: () = #moved::check::record_align(#name, ::core::mem::align_of::<#ident>());
     };
-    let copy = copy_bound(ident);
+    let bounds = struct_bounds(&model);
     let errors = errors.into_tokens();
     quote! {
         #errors
@@ -32,7 +32,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
         const _: () = {
             #align
             #[automatically_derived]
-            impl #krate::record::SbtRecord for #ident #copy {
+            impl #krate::record::SbtRecord for #ident #bounds {
                 const NAME: &'static ::core::primitive::str = #name;
                 #[cfg(not(target_arch = "nvptx64"))]
                 type Host = #host;

@@ -48,7 +48,8 @@ impl Field {
 }
 
 /// The names of the view types; an alias of one needs `#[view]`.
-const VIEWS: [&str; 6] = ["Slice", "SliceMut", "SliceMut2d", "Traversable", "Callable", "Callables"];
+const VIEWS: [&str; 8] =
+    ["Slice", "SliceMut", "SliceMut2d", "Traversable", "Instances", "TriangleVertices", "Callable", "Callables"];
 
 /// Whether the type is a view by its name, or an array of these.
 fn is_view(ty: &Type) -> bool {

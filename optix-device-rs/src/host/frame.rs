@@ -46,6 +46,8 @@ pub struct ExceptionState {
 impl ExceptionState {
     /// For other programs.
     pub const NONE: Self = Self { code: 0, details: [0; crate::exception::MAX_DETAILS], line: None };
+    /// `OPTIX_EXCEPTION_CODE_STACK_OVERFLOW`.
+    pub const STACK_OVERFLOW: Self = Self { code: crate::exception::STACK_OVERFLOW, ..Self::NONE };
 }
 
 /// A call of a callable (guide 15.2).
@@ -127,11 +129,21 @@ pub trait Executor {
     fn transform_list_size(&self) -> u32;
     /// The handle of one of them, 0 nearest the root.
     fn transform_list_handle(&self, index: u32) -> u64;
+    /// The handle of an instance of an IAS.
+    ///
+    /// # Safety
+    /// `ias` is the handle of an IAS of this launch, which has an instance `index`.
+    unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64;
     /// What an instance's handle tells.
     ///
     /// # Safety
     /// `handle` came from this launch.
     unsafe fn instance(&self, handle: u64) -> InstanceState;
+    /// The vertices of a triangle, in object space.
+    ///
+    /// # Safety
+    /// `gas` is the handle of a GAS of this launch, which has such a triangle.
+    unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3];
     /// Three rows.
     fn object_to_world(&self) -> [[f32; 4]; 3];
     /// Three rows.

@@ -159,6 +159,44 @@ impl<T: Element> Buffer2d<T> {
     }
 }
 
+/// The instances of an IAS: the host twin of [`Instances`](crate::accel::Instances). A clone is of the same structure.
+#[derive(Clone, Debug)]
+pub struct InstanceTable {
+    pub(super) ias: World,
+    pub(super) len: u32,
+}
+
+impl InstanceTable {
+    /// For backends.
+    ///
+    /// # Safety
+    /// `ias` is of an IAS with `len` instances, built with random instance access.
+    #[doc(hidden)]
+    pub unsafe fn new(ias: World, len: u32) -> Self {
+        Self { ias, len }
+    }
+}
+
+/// The triangles of a GAS: the host twin of [`TriangleVertices`](crate::accel::TriangleVertices). A clone is of the same
+/// structure.
+#[derive(Clone, Debug)]
+pub struct TriangleTable {
+    pub(super) gas: World,
+    pub(super) counts: Buffer<u32>,
+}
+
+impl TriangleTable {
+    /// For backends.
+    ///
+    /// # Safety
+    /// `gas` is of a GAS of triangles, built with random vertex access, that has as many records as `counts`, each of a build
+    /// input with so many triangles. Nobody writes to `counts`.
+    #[doc(hidden)]
+    pub unsafe fn new(gas: World, counts: Buffer<u32>) -> Self {
+        Self { gas, counts }
+    }
+}
+
 /// An acceleration structure of a scene: the host twin of [`Traversable`](crate::ray::Traversable). A clone is the same structure.
 #[derive(Clone)]
 pub struct World {

@@ -15,5 +15,5 @@ pub use description::{
     PayloadDescription, PipelineDescription, ProgramDescription, RayDescription, RecordLayout,
 };
 pub use frame::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState, PayloadWatch};
-pub use memory::{Buffer, Buffer2d, DeviceId, Memory, MemoryError, World};
+pub use memory::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, MemoryError, TriangleTable, World};
 pub use twin::{KeepAlive, Twin, View};

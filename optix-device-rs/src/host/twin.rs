@@ -1,6 +1,7 @@
 //! Host twins: structs in which owning buffers stand in the place of device views.
 
-use super::{Buffer, Buffer2d, DeviceId, Memory, World};
+use super::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, TriangleTable, World};
+use crate::accel::{Instances, TriangleVertices};
 use crate::data::DeviceData;
 use crate::ray::Traversable;
 use crate::view::{Element, Slice, SliceMut, SliceMut2d};
@@ -9,17 +10,31 @@ use std::sync::Arc;
 use std::vec::Vec;
 
 /// What a launch or a shader binding table keeps alive, gathered while twins are lowered to device data.
-#[derive(Default)]
 pub struct KeepAlive {
     pub(super) owners: Vec<Arc<dyn Any + Send + Sync>>,
     pub(super) devices: Vec<(DeviceId, &'static str)>,
 }
 
 impl KeepAlive {
+    /// Nothing yet.
+    ///
+    /// # Safety
+    /// What views are made with it are used no longer than its owners are kept.
+    pub const unsafe fn new() -> Self {
+        Self { owners: Vec::new(), devices: Vec::new() }
+    }
+
     fn memory(&mut self, memory: &Arc<dyn Memory>) {
         self.devices.push((memory.device(), "buffer"));
         let owner: Arc<dyn Any + Send + Sync> = memory.clone();
         self.owners.push(owner);
+    }
+
+    /// Keeps the structure of a handle.
+    fn structure(&mut self, world: &World) -> u64 {
+        self.devices.push((world.device, "acceleration structure"));
+        self.owners.push(world.owner.clone());
+        world.handle
     }
 
     /// What is to be kept, so far.
@@ -60,7 +75,7 @@ impl Twin for () {
 /// Which host type stands in for a view in a host twin. Used by the derives.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a view of device memory",
-    label = "only `Slice`, `SliceMut`, `SliceMut2d`, `Traversable`, `Callable` and `Callables` have an owner on the host",
+    label = "only `Slice` and its kin, `Traversable`, `Instances`, `TriangleVertices`, `Callable` and `Callables` have an owner on the host",
     note = "a field is taken for a view by its type's name or by `#[view]`: give a type of your own another name, or take `#[view]` away"
 )]
 pub trait View: DeviceData {
@@ -101,9 +116,24 @@ impl<T: Element> View for SliceMut2d<T> {
 impl View for Traversable {
     type Owner = World;
     fn of(owner: &World, keep: &mut KeepAlive) -> Self {
-        keep.devices.push((owner.device, "acceleration structure"));
-        keep.owners.push(owner.owner.clone());
         // SAFETY: the owner keeps the handle alive (`World::new`), and `keep` holds it.
-        unsafe { Self::from_raw(owner.handle) }
+        unsafe { Self::from_raw(keep.structure(owner)) }
+    }
+}
+
+impl View for Instances {
+    type Owner = InstanceTable;
+    fn of(owner: &InstanceTable, keep: &mut KeepAlive) -> Self {
+        // SAFETY: as for `Traversable`; and `InstanceTable::new`.
+        unsafe { Self::from_raw(keep.structure(&owner.ias), owner.len.into()) }
+    }
+}
+
+impl View for TriangleVertices {
+    type Owner = TriangleTable;
+    fn of(owner: &TriangleTable, keep: &mut KeepAlive) -> Self {
+        let counts = View::of(&owner.counts, keep);
+        // SAFETY: as for `Traversable`; and `TriangleTable::new`.
+        unsafe { Self::from_raw(keep.structure(&owner.gas), counts) }
     }
 }

@@ -40,15 +40,22 @@ pub unsafe fn load_param<P: LaunchParams, T: Copy, const OFFSET: usize>(base: Pa
     unsafe { base.0.add(OFFSET).cast::<T>().read() }
 }
 
-/// Memory that nobody has written yet, filled with what is easily recognised.
+/// What a payload word that nobody has written yet holds: a NaN, and as an index out of range of everything, so that a program
+/// that were to read it would show.
+pub const UNWRITTEN: u32 = 0xffcd_cdcd;
+
+/// Memory that nobody has written yet: words of [`UNWRITTEN`].
 ///
 /// # Safety
-/// Any bytes are a `T`.
+/// A `T` is an array of words, which may be any.
 #[inline(always)]
 pub unsafe fn unwritten<T>(memory: &mut MaybeUninit<T>) -> &mut T {
-    // SAFETY: the bytes are `memory`'s, and the caller says that any are a `T`.
+    let words = memory.as_mut_ptr().cast::<u32>();
+    // SAFETY: the words are `memory`'s, and the caller says that any are a `T`.
     unsafe {
-        memory.as_mut_ptr().write_bytes(0xcd, 1);
+        for i in 0..size_of::<T>() / 4 {
+            words.add(i).write(UNWRITTEN);
+        }
         memory.assume_init_mut()
     }
 }
@@ -247,6 +254,13 @@ impl Cx {
         4
     }
     /// # Safety
+    /// `ias` was built with random instance access and has an instance `index`.
+    #[inline(always)]
+    pub unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
+        // SAFETY: the caller's.
+        unsafe { self.frame().executor.instance_traversable_from_ias(ias, index) }
+    }
+    /// # Safety
     /// `handle` is of an instance.
     #[inline(always)]
     pub unsafe fn instance_id_from_handle(&self, handle: u64) -> u32 {
@@ -273,6 +287,14 @@ impl Cx {
     pub unsafe fn instance_inverse_transform_from_handle(&self, handle: u64) -> [[f32; 4]; 3] {
         // SAFETY: the caller's.
         unsafe { self.frame().executor.instance(handle) }.inverse
+    }
+    /// # Safety
+    /// `gas` is of triangles and was built with random vertex access; `sbt_gas_index` is a record of one of its build
+    /// inputs, which has a triangle `primitive`.
+    #[inline(always)]
+    pub unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3] {
+        // SAFETY: the caller's.
+        unsafe { self.frame().executor.triangle_vertices_from_handle(gas, primitive, sbt_gas_index) }
     }
     #[inline(always)]
     pub fn triangle_vertices(&self) -> [Vec3; 3] {

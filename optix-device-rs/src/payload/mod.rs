@@ -126,13 +126,17 @@ pub const fn word_mask(at: usize, count: usize) -> u32 {
 }
 
 /// A party that has nothing to write, so that a hit group or ray type may do without its program.
+///
+/// # Safety
+/// As the name says: otherwise words that nobody wrote are read.
 #[diagnostic::on_unimplemented(
     message = "a program is missing: its payload has fields that only it writes (`{Self}`)",
     label = "no program returns `{Self}`",
     note = "name a program in `pipeline!` for this ray type, or give the fields another writer in `#[payload(write(..))]`"
 )]
-pub trait NothingToWrite {}
-impl NothingToWrite for () {}
+pub unsafe trait NothingToWrite {}
+// SAFETY: the part without fields.
+unsafe impl NothingToWrite for () {}
 
 /// The caller reads only what it writes itself, so that the closest-hit program may be left out for a ray.
 ///

@@ -1,8 +1,8 @@
 //! How a payload gets from party to party.
 
 use super::Part;
-use crate::machine::{Cx, TraceCall, unwritten};
-use crate::words::{WordBuffer, Words, part, part_mut};
+use crate::machine::{Cx, TraceCall, UNWRITTEN, unwritten};
+use crate::words::{MAX_PAYLOAD_WORDS, WordBuffer, Words, part, part_mut};
 use core::mem::MaybeUninit;
 
 /// How a payload gets from party to party; chosen by `#[payload(transport = ..)]`, the same for every program's source.
@@ -47,7 +47,7 @@ impl Transport for Registers {
 
     #[inline(always)]
     unsafe fn trace<From: Part, At: Part>(cx: &Cx, call: &TraceCall, given: From) -> At {
-        let mut registers = WordBuffer::ZERO;
+        let mut registers = WordBuffer([UNWRITTEN; MAX_PAYLOAD_WORDS]);
         given.store(&mut registers.0);
         let registers = cx.trace(call, registers);
         // SAFETY: the payload's flow was proved (`Payload`), and the programs of a ray are its own.

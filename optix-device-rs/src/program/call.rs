@@ -1,12 +1,24 @@
-//! Calls of callables: who may, and how (guide 15.1).
+//! What takes the context of the program that calls: callables, and who may call them (guide 15.1).
 
-use super::{AnyHit, ClosestHit, ContinuationCallable, DirectCallable, Intersection, Miss, RayGen};
+use super::{AnyHit, ClosestHit, ContinuationCallable, DirectCallable, Exception, Intersection, Miss, RayGen};
 use crate::callable::{Callable, Continuation, Direct};
 use crate::machine::Cx;
 use crate::words::Words;
 
-/// Only this module asks a context for its machine: programs would get round what the context allows.
-pub struct Here(());
+/// Only this crate asks a context for its machine, and has contexts, since nobody else can name this: programs would get round
+/// what a context allows.
+pub struct Here(pub(crate) ());
+
+/// The context of a program, of any kind.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not the context of a program",
+    label = "expected the context of the program that asks: its first argument",
+    note = "instances and triangles are read by running programs: pass the context on, as in `frame.instances().get(rg, index)`"
+)]
+pub trait Context {
+    #[doc(hidden)]
+    fn machine(&self, _: Here) -> &Cx;
+}
 
 /// The context of a program that may call direct callables.
 #[diagnostic::on_unimplemented(
@@ -40,6 +52,7 @@ macro_rules! may_call {
         }
     )*};
 }
+may_call!(Context: RayGen<P>, Intersection<P, A>, AnyHit<P, A>, ClosestHit<P, A>, Miss<P>, Exception<P>, DirectCallable<P>, ContinuationCallable<P>);
 may_call!(CallsDirect: RayGen<P>, Intersection<P, A>, AnyHit<P, A>, ClosestHit<P, A>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>);
 may_call!(CallsContinuation: RayGen<P>, ClosestHit<P, A>, Miss<P>, ContinuationCallable<P>);
 

@@ -75,7 +75,7 @@ pub struct InstanceHandle<'a> {
 }
 
 impl<'a> InstanceHandle<'a> {
-    pub(super) fn new(cx: Cx, handle: u64) -> Self {
+    pub(crate) fn new(cx: Cx, handle: u64) -> Self {
         Self { cx, handle, call: PhantomData }
     }
 

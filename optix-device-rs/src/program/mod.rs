@@ -17,7 +17,8 @@
 //! A call from another kind of program does not compile. `docs/contracts.md` has the table by device function.
 
 mod call;
-pub use call::{CallsContinuation, CallsDirect};
+pub(crate) use call::Here;
+pub use call::{CallsContinuation, CallsDirect, Context};
 #[doc(hidden)]
 pub mod entry;
 mod exception;

@@ -3,7 +3,7 @@
 use super::kernel::{self, AabbInput, Accel, Gas, GeometryFlags, Ias, Instance, SbtMapping, TriangleInput};
 use super::machine::{self, Job};
 use super::memory::CpuMemory;
-use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, InstanceInput, Linked, Running, next_device_id};
+use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, IasInput, Linked, Running, next_device_id};
 use crate::plan::Plan;
 use crate::sbt::ShaderBindingTable;
 use crate::scene::GeometryData;
@@ -58,8 +58,8 @@ impl Backend for CpuBackend {
         Ok(built(gas.into()))
     }
 
-    fn build_ias(&self, instances: &[InstanceInput]) -> Result<BuiltAccel> {
-        let instances = instances.iter().map(|instance| {
+    fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel> {
+        let instances = input.instances.iter().map(|instance| {
             let child =
                 instance.child.owner.clone().downcast::<Accel>().map_err(|_| {
                     Error::Scene("an instance is of an acceleration structure of another device".into())

@@ -7,7 +7,7 @@ use super::driver::{
     SbtSections, ShaderBindingTable as DeviceTable, Source, TraversableGraph, TriangleInput, stack::CallDepths,
 };
 use super::feedback;
-use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, InstanceInput, Linked, Running, next_device_id};
+use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, IasInput, Linked, Running, next_device_id};
 use crate::plan::{Graph, Plan};
 use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
 use crate::scene::GeometryData;
@@ -55,7 +55,8 @@ impl Backend for OptixBackend {
     }
 
     fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel> {
-        let options = AccelOptions { compact: input.compact, ..Default::default() };
+        let GasInput { compact, random_vertex_access, .. } = *input;
+        let options = AccelOptions { compact, random_vertex_access, ..Default::default() };
         let accel = match input.kind {
             GeometryKind::Triangles => {
                 let inputs: Vec<_> = input.inputs.iter().filter_map(triangles).collect();
@@ -77,8 +78,8 @@ impl Backend for OptixBackend {
         Ok(built(accel))
     }
 
-    fn build_ias(&self, instances: &[InstanceInput]) -> Result<BuiltAccel> {
-        let instances = instances.iter().map(|instance| {
+    fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel> {
+        let instances = input.instances.iter().map(|instance| {
             let child =
                 instance.child.owner.downcast_ref::<Accel>().ok_or_else(|| {
                     Error::Scene("an instance is of an acceleration structure of another device".into())
@@ -93,7 +94,8 @@ impl Backend for OptixBackend {
             })
         });
         let instances: Vec<_> = instances.collect::<Result<_>>()?;
-        Ok(built(Accel::instances(&self.context, &instances, &AccelOptions::default())?))
+        let options = AccelOptions { random_instance_access: input.random_instance_access, ..Default::default() };
+        Ok(built(Accel::instances(&self.context, &instances, &options)?))
     }
 
     fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable) -> Result<Box<dyn Linked>> {

@@ -1,11 +1,11 @@
 //! Acceleration structures: geometry (GAS) and instances (IAS) (guide 5).
 
 use super::{Geometry, GeometryData, InstanceFlags, Scene};
-use crate::backend::{BuildInput, BuiltAccel, GasInput, InstanceInput};
+use crate::backend::{BuildInput, BuiltAccel, GasInput, IasInput, InstanceInput};
 use crate::{Error, Result};
 use glam::Affine3A;
-use optix_device_rs::attributes::Geometry as GeometryKindOf;
-use optix_device_rs::host::{DeviceId, World};
+use optix_device_rs::attributes::{Geometry as GeometryKindOf, Triangles};
+use optix_device_rs::host::{DeviceId, InstanceTable, TriangleTable, World};
 use optix_device_rs::pipeline::Pipeline;
 use std::any::Any;
 use std::marker::PhantomData;
@@ -154,6 +154,10 @@ impl<P: Pipeline, G: GeometryKindOf> GasBuilder<'_, P, G> {
 
     /// Builds it.
     pub fn build(self) -> Result<Accel<P>> {
+        self.build_for(false)
+    }
+
+    fn build_for(self, random_vertex_access: bool) -> Result<Accel<P>> {
         let state = &mut self.scene.state;
         if self.members.is_empty() {
             return Err(Error::Scene("a GAS needs at least one geometry".into()));
@@ -174,7 +178,7 @@ impl<P: Pipeline, G: GeometryKindOf> GasBuilder<'_, P, G> {
                 .collect(),
             record_of_primitive: member.record_of_primitive.clone(),
         });
-        let input = GasInput { kind: G::KIND, inputs: inputs.collect(), compact: self.compact };
+        let input = GasInput { kind: G::KIND, inputs: inputs.collect(), compact: self.compact, random_vertex_access };
         let built = self.scene.device.backend.build_gas(&input)?;
         let records = self.members.iter().flat_map(|m| m.records.iter().copied()).collect();
         let first_slot = state.slots_for(records);
@@ -192,6 +196,32 @@ impl<P: Pipeline, G: GeometryKindOf> GasBuilder<'_, P, G> {
             }),
             pipeline: PhantomData,
         })
+    }
+}
+
+impl<P: Pipeline> GasBuilder<'_, P, Triangles> {
+    /// Builds it so that programs may read its triangles, which takes a little more memory
+    /// (`OPTIX_BUILD_FLAG_ALLOW_RANDOM_VERTEX_ACCESS`, guide 13.9). The table is what a field of type
+    /// [`TriangleVertices`](optix_device_rs::accel::TriangleVertices) holds.
+    pub fn build_with_triangles(self) -> Result<(Accel<P>, TriangleTable)> {
+        let device = self.scene.device.clone();
+        let members = self.members.iter();
+        let counts: Vec<u32> = members.flat_map(|m| m.records.iter().map(|_| m.data.primitives() as u32)).collect();
+        let accel = self.build_for(true)?;
+        let counts = device.buffer(&counts)?;
+        // SAFETY: built for it, with these records, each of a geometry of 2^29 triangles at the most; the buffer is nobody else's.
+        let table = unsafe { TriangleTable::new(Read::of(&accel), counts) };
+        Ok((accel, table))
+    }
+}
+
+/// What keeps a structure alive for programs that read it. They trace no rays against it, so a launch has nothing to check.
+struct Read(#[expect(dead_code, reason = "kept alive")] Arc<AccelShared>);
+
+impl Read {
+    fn of<P>(accel: &Accel<P>) -> World {
+        let shared = &accel.shared;
+        World::new(shared.built.handle, shared.device, Arc::new(Self(shared.clone())))
     }
 }
 
@@ -221,11 +251,26 @@ const MAX_GRAPH_DEPTH: u32 = 31;
 impl<P: Pipeline> IasBuilder<'_, P> {
     /// Builds it.
     pub fn build(self) -> Result<Accel<P>> {
+        self.build_for(false)
+    }
+
+    /// Builds it so that programs may read its instances (`OPTIX_BUILD_FLAG_ALLOW_RANDOM_INSTANCE_ACCESS`, guide 13.12). The
+    /// table is what a field of type [`Instances`](optix_device_rs::accel::Instances) holds.
+    pub fn build_with_instances(self) -> Result<(Accel<P>, InstanceTable)> {
+        let len = u32::try_from(self.instances.len())
+            .map_err(|_| Error::Scene(format!("{} instances are more than an IAS has", self.instances.len())))?;
+        let accel = self.build_for(true)?;
+        // SAFETY: built for it, with so many instances.
+        let table = unsafe { InstanceTable::new(Read::of(&accel), len) };
+        Ok((accel, table))
+    }
+
+    fn build_for(self, random_instance_access: bool) -> Result<Accel<P>> {
         let state = &mut self.scene.state;
         if self.instances.is_empty() {
             return Err(Error::Scene("an IAS needs at least one instance".into()));
         }
-        let mut inputs = Vec::with_capacity(self.instances.len());
+        let mut instances = Vec::with_capacity(self.instances.len());
         let mut depth = 0;
         for (i, instance) in self.instances.iter().enumerate() {
             let child = &instance.child.shared;
@@ -247,7 +292,7 @@ impl<P: Pipeline> IasBuilder<'_, P> {
             }
             depth = depth.max(child.depth + 1);
             let rows = glam::Mat4::from(instance.transform).transpose().to_cols_array();
-            inputs.push(InstanceInput {
+            instances.push(InstanceInput {
                 transform: core::array::from_fn(|k| rows[k]),
                 id: instance.id,
                 mask: instance.mask,
@@ -262,7 +307,7 @@ impl<P: Pipeline> IasBuilder<'_, P> {
                 depth
             )));
         }
-        let built = self.scene.device.backend.build_ias(&inputs)?;
+        let built = self.scene.device.backend.build_ias(&IasInput { instances, random_instance_access })?;
         state.usage.depths.push(depth);
         Ok(Accel {
             shared: Arc::new(AccelShared {

@@ -126,7 +126,8 @@ impl<P: Pipeline> Scene<P> {
 
     /// A record's device bytes, after a check that what it points to is on this scene's device.
     pub(crate) fn lower<T: Twin>(&self, record: &T) -> Result<RecordData> {
-        let mut keep = KeepAlive::default();
+        // SAFETY: the record keeps the owners beside the bytes.
+        let mut keep = unsafe { KeepAlive::new() };
         let device_data = record.lower(&mut keep);
         if let Some(what) = keep.foreign(self.device.backend.id()) {
             return Err(Error::Scene(format!(

@@ -119,6 +119,11 @@ fn bytes_of<T: DeviceData>(value: &T) -> Vec<u8> {
     bytes
 }
 
+fn keep_alive() -> KeepAlive {
+    // SAFETY: nothing is read through the views of these tests.
+    unsafe { KeepAlive::new() }
+}
+
 fn world(handle: u64) -> World {
     World::new(handle, DeviceId(7), Arc::new(()))
 }
@@ -172,7 +177,7 @@ fn data_is_written_at_its_offsets_with_zero_padding() {
     expected.extend([1, 0, 2, 0, 0xff, 0xff, 0, 0]);
     expected.extend((-0.5f32).to_le_bytes());
     assert_eq!(bytes_of(&settings), expected);
-    assert_eq!(settings.lower(&mut KeepAlive::default()), settings);
+    assert_eq!(settings.lower(&mut keep_alive()), settings);
 }
 
 #[test]
@@ -182,7 +187,7 @@ fn twins_lower_to_views_and_keep_their_owners() {
         portal: PortalHost { into: world(11), tint: Vec3::Y },
         both: [world(12), world(13)],
     };
-    let mut keep = KeepAlive::default();
+    let mut keep = keep_alive();
     let device = host.clone().lower(&mut keep);
     assert_eq!(device.opacity, 0.25);
     assert_eq!(device.portal.into.to_raw(), 11);
@@ -193,7 +198,7 @@ fn twins_lower_to_views_and_keep_their_owners() {
     assert_eq!(keep.into_owners().len(), 3);
 
     let frame = FrameHost { on: true, worlds: [world(1), world(2)], depth: 5 };
-    let device = frame.lower(&mut KeepAlive::default());
+    let device = frame.lower(&mut keep_alive());
     assert_eq!((device.on, device.depth), (true, 5));
     assert_eq!(bytes_of(&device)[..16], [1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0]);
     assert_eq!((Window::NAME, Paint::NAME, Marker::NAME), ("Window", "Paint", "Marker"));
@@ -355,7 +360,10 @@ fn camera(rg: &RayGen<Tracer>, record: &Paint) {
 }
 
 #[raygen]
-fn r#loop(_: &RayGen<Tracer>) {}
+fn r#loop(rg: &RayGen<Tracer>) {
+    let ray = Ray::new(Vec3::ZERO, Vec3::X);
+    let _ = rg.trace::<Radiance>(Traversable::NULL, ray, RadianceFromCaller { seed: 41, r#mod: 5 });
+}
 
 #[intersection]
 fn ball(_: &Intersection<Tracer, BallHit>, _: &Marker, ray: RadianceAtIntersection) -> RadianceFromIntersection {
@@ -448,15 +456,15 @@ fn a_pipeline_describes_itself() {
     assert_eq!(names.len(), 16);
 }
 
-/// Runs an entry on a frame; gives its decision and the payload.
+/// Runs an entry on a frame; gives its decision and the payload, or with what it traced a ray.
 fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer) -> (Decision, WordBuffer) {
     use optix_device_rs::host::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState};
     use optix_device_rs::machine::TraceCall;
 
-    struct Alone;
-    impl Executor for Alone {
-        fn trace(&self, _: &TraceCall, _: &mut WordBuffer) {
-            unreachable!()
+    struct Alone<'a>(&'a std::cell::Cell<WordBuffer>);
+    impl Executor for Alone<'_> {
+        fn trace(&self, _: &TraceCall, payload: &mut WordBuffer) {
+            self.0.set(*payload);
         }
         fn call(&self, _: &CallableCall, _: &mut WordBuffer) {
             unreachable!()
@@ -482,7 +490,13 @@ fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer)
         fn transform_list_handle(&self, _: u32) -> u64 {
             unreachable!()
         }
+        unsafe fn instance_traversable_from_ias(&self, _: u64, _: u32) -> u64 {
+            unreachable!()
+        }
         unsafe fn instance(&self, _: u64) -> InstanceState {
+            unreachable!()
+        }
+        unsafe fn triangle_vertices_from_handle(&self, _: u64, _: u32, _: u32) -> [Vec3; 3] {
             unreachable!()
         }
         fn object_to_world(&self) -> [[f32; 4]; 3] {
@@ -497,7 +511,7 @@ fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer)
         Settings { on: true, r#type: 3, camera: Pinhole { flags: 0, eye: Vec3::Z }, table: [1, 2, 3], scale: 2.0 };
     let payload = std::cell::Cell::new(payload);
     let frame = Frame {
-        executor: &Alone,
+        executor: &Alone(&payload),
         launch_index: UVec3::ZERO,
         launch_dimensions: UVec3::ONE,
         params: std::ptr::NonNull::from(&settings).cast(),
@@ -543,6 +557,13 @@ fn entries_move_the_payload_in_and_out() {
 
     let (_, out) = run(description.rays[0].miss.unwrap().entry, &paint, payload);
     assert_eq!(at_caller(&out).light, Vec3::splat(5.0));
+
+    let (_, sent) = run(description.raygen[1].entry, &paint, payload);
+    let written = RadianceFromCaller::MASK;
+    for (i, word) in sent.0.into_iter().enumerate() {
+        let poison = word == 0xffcd_cdcd;
+        assert_eq!(poison, written >> i & 1 == 0, "word {i} is {word:#x}");
+    }
 
     let words = std::array::from_fn(|i| i as u32);
     let _ = run(description.hitgroups[0].rays[1].closesthit.unwrap(), &paint, WordBuffer(words));

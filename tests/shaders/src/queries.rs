@@ -25,6 +25,24 @@ pub struct Answer {
     pub gas_of: u32,
     /// Hit kind; 1 if a triangle; 1 for a front face, 2 for a back face.
     pub kind: [u32; 3],
+    /// 1 if the vertices of the triangle, read by number, are those of the hit.
+    pub vertices: u32,
+}
+
+/// What a program read of structures that it did not meet.
+#[derive(Clone, Copy, Debug, PartialEq, Element)]
+#[repr(C)]
+pub struct Reading {
+    /// Of the instance with this launch index: its matrix and the inverse.
+    pub instance: [[[f32; 4]; 3]; 2],
+    /// Its id.
+    pub id: u32,
+    /// Instances of the structure; records of the GAS; triangles of each.
+    pub counts: [u32; 4],
+    /// 1 if this and instance 0 have the same child.
+    pub same_child: u32,
+    /// Per record: the vertices of the triangle with this launch index.
+    pub vertices: [[[f32; 3]; 3]; 2],
 }
 
 /// What is mapped between spaces.
@@ -40,6 +58,7 @@ const NOTHING: Answer = Answer {
     instance: [0; 2],
     gas_of: 0,
     kind: [0; 3],
+    vertices: 0,
 };
 
 /// The launch parameters.
@@ -49,8 +68,14 @@ pub struct QueryFrame {
     pub rays: Slice<[[f32; 3]; 2]>,
     /// Per launch index: what its closest-hit and its any-hit program were told.
     pub answers: SliceMut<Answer>,
+    /// Per launch index: what was read by ray generation.
+    pub readings: SliceMut<Reading>,
     /// The scene.
     pub world: Traversable,
+    /// The instances of a structure.
+    pub instances: Instances,
+    /// The triangles of a structure with two records.
+    pub triangles: TriangleVertices,
 }
 
 /// Nothing needs to come back.
@@ -72,6 +97,25 @@ fn ask(rg: &RayGen<Queries>) {
     let [origin, direction] = rg.params().rays().get(rg.launch_index().x);
     let ray = Ray::new(Vec3::from_array(origin), Vec3::from_array(direction));
     let _ = rg.trace::<Asked>(rg.params().world(), ray, AskedFromCaller { met: false });
+}
+
+/// Reads the instance and the triangles with this launch index.
+#[raygen]
+pub fn read(rg: &RayGen<Queries>) {
+    let (frame, index) = (rg.params(), rg.launch_index().x);
+    let (instances, triangles) = (frame.instances(), frame.triangles());
+    let instance = instances.get(rg, index);
+    let vertices = [0, 1].map(|record| triangles.get(rg, record, index).map(|v| v.to_array()));
+    frame.readings().set(
+        index,
+        Reading {
+            instance: [instance.transform().rows(), instance.inverse_transform().rows()],
+            id: instance.id(),
+            counts: [instances.len(), triangles.records(), triangles.triangles(0), triangles.triangles(1)],
+            same_child: u32::from(instance.child() == instances.get(rg, 0).child()),
+            vertices,
+        },
+    );
 }
 
 macro_rules! answer {
@@ -113,13 +157,19 @@ macro_rules! answer {
     }};
 }
 
-fn closest<A: Attributes>(hit: &ClosestHit<Queries, A>) -> AskedFromClosestHit {
-    hit.params().answers().set(hit.launch_index().x * 2, answer!(hit));
+macro_rules! same_vertices {
+    ($hit:ident) => {
+        u32::from($hit.params().triangles().get($hit, $hit.sbt_gas_index(), $hit.primitive_index()) == $hit.vertices())
+    };
+}
+
+fn closest<A: Attributes>(hit: &ClosestHit<Queries, A>, vertices: u32) -> AskedFromClosestHit {
+    hit.params().answers().set(hit.launch_index().x * 2, Answer { vertices, ..answer!(hit) });
     AskedFromClosestHit { met: true }
 }
 
-fn any<A: Attributes>(hit: &AnyHit<Queries, A>) -> Decision {
-    let mut answer = answer!(hit);
+fn any<A: Attributes>(hit: &AnyHit<Queries, A>, vertices: u32) -> Decision {
+    let mut answer = Answer { vertices, ..answer!(hit) };
     answer.object_ray = [hit.object_ray_origin(), hit.object_ray_direction()].map(|v| v.to_array());
     hit.params().answers().set(hit.launch_index().x * 2 + 1, answer);
     Decision::Accept
@@ -127,29 +177,29 @@ fn any<A: Attributes>(hit: &AnyHit<Queries, A>) -> Decision {
 
 #[closesthit]
 fn closest_triangle(hit: &ClosestHit<Queries, Triangles>) -> AskedFromClosestHit {
-    closest(hit)
+    closest(hit, same_vertices!(hit))
 }
 
 #[anyhit]
 fn any_triangle(hit: &AnyHit<Queries, Triangles>) -> Decision {
-    any(hit)
+    any(hit, same_vertices!(hit))
 }
 
 #[closesthit]
 fn closest_ball(hit: &ClosestHit<Queries, BallHit>) -> AskedFromClosestHit {
-    closest(hit)
+    closest(hit, 0)
 }
 
 #[anyhit]
 fn any_ball(hit: &AnyHit<Queries, BallHit>) -> Decision {
-    any(hit)
+    any(hit, 0)
 }
 
 pipeline! {
     /// Writes down what programs are told.
     pub struct Queries {
         params: QueryFrame,
-        raygen: [ask],
+        raygen: [ask, read],
         rays: { Asked {} },
         hitgroups: {
             Bare on Triangles => { Asked { closesthit: closest_triangle, anyhit: any_triangle } },

@@ -21,7 +21,7 @@ mod vertices;
 
 pub use hit::{is_back_face, primitive_type_of};
 pub use params::{ParamsBase, load_param};
-pub use payload::unwritten;
+pub use payload::{UNWRITTEN, unwritten};
 
 use core::arch::asm;
 

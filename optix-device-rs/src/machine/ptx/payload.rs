@@ -5,10 +5,13 @@ use crate::words::WordBuffer;
 use core::arch::asm;
 use core::mem::MaybeUninit;
 
+/// What a trace call passes for a payload word that its caller does not write.
+pub const UNWRITTEN: u32 = 0;
+
 /// Memory that nobody has written yet.
 ///
 /// # Safety
-/// Any bytes are a `T`.
+/// A `T` is an array of words, which may be any.
 #[inline(always)]
 pub unsafe fn unwritten<T>(memory: &mut MaybeUninit<T>) -> &mut T {
     // SAFETY: no instruction; but the compiler must take it that the block writes what it has the address of, and the caller

@@ -28,6 +28,24 @@ impl Cx {
     }
 
     /// # Safety
+    /// `ias` was built with random instance access and has an instance `index`.
+    #[inline(always)]
+    pub unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
+        let handle: u64;
+        // SAFETY: the caller's.
+        unsafe {
+            asm!(
+                "call ({h}), _optix_get_instance_traversable_from_ias, ({ias}, {index});",
+                h = out(reg64) handle,
+                ias = in(reg64) ias,
+                index = in(reg32) index,
+                options(pure, nomem, nostack, preserves_flags)
+            )
+        };
+        handle
+    }
+
+    /// # Safety
     /// `handle` is of an instance.
     #[inline(always)]
     pub unsafe fn instance_id_from_handle(&self, handle: u64) -> u32 {

@@ -6,6 +6,7 @@ use super::collapse::Shape;
 use super::error::BuildError;
 use super::flags::GeometryFlags;
 use super::triangle::Block;
+use glam::DVec3;
 
 /// How the primitives of a build input map to its SBT records (guide §5.1).
 #[derive(Clone, Debug, PartialEq)]
@@ -190,11 +191,13 @@ impl Gas {
     }
 
     /// The corners, in object space, of the triangle with this reported primitive index in the build input that
-    /// `sbt_gas_index` belongs to (guide §13.9). `None` if there is none, or if these are custom primitives.
+    /// `sbt_gas_index` belongs to (guide §13.9): NaN for one without area. `None` if there is none, or if these are custom
+    /// primitives.
     pub fn triangle_vertices(&self, sbt_gas_index: u32, primitive_index: u32) -> Option<[[f32; 3]; 3]> {
         let Content::Triangles { inputs, .. } = &self.content else { return None };
         let (input, local) = self.locate(sbt_gas_index, primitive_index)?;
-        (local < inputs[input].len()).then(|| inputs[input].triangle(local))
+        let corners = (local < inputs[input].len()).then(|| inputs[input].triangle(local))?;
+        Some(if has_area(&corners) { corners } else { [[f32::NAN; 3]; 3] })
     }
 
     /// The box, in object space, of the custom primitive with this reported index; see [`Gas::triangle_vertices`].
@@ -255,6 +258,12 @@ impl Gas {
         let local = primitive_index.checked_sub(self.parts[input].primitive_index_offset)?;
         Some((input, local as usize))
     }
+}
+
+/// Whether the corners span a triangle.
+fn has_area(corners: &[[f32; 3]; 3]) -> bool {
+    let [a, b, c] = corners.map(|corner| DVec3::from_array(corner.map(f64::from)));
+    (b - a).cross(c - a) != DVec3::ZERO
 }
 
 /// A block is about as much work as a node.

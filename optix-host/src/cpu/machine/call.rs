@@ -3,9 +3,10 @@
 use super::checks::{self, Watch};
 use super::exceptions::throw;
 use super::handle::{self, rows};
+use super::stack::StackEnd;
 use super::traversal::{AtHit, Traversal};
 use super::{Job, trap};
-use crate::cpu::kernel::{self, RayQuery};
+use crate::cpu::kernel::{self, Accel, RayQuery};
 use crate::sbt::Section;
 use core::cell::Cell;
 use core::ptr::NonNull;
@@ -26,6 +27,7 @@ pub(super) struct Call<'c> {
     depth: u32,
     /// Callables around this one, since the last trace call.
     callables: u32,
+    stack: StackEnd,
     /// The program that runs, for messages.
     running: &'c Cell<&'static str>,
     payload: &'c Cell<WordBuffer>,
@@ -57,11 +59,36 @@ impl Seen {
 }
 
 impl<'c> Call<'c> {
+    /// Inside of no other program.
+    fn root(job: &'c Job<'c>, index: UVec3, running: &'c Cell<&'static str>, payload: &'c Cell<WordBuffer>) -> Self {
+        let stack = StackEnd::of_this_thread();
+        Self { job, index, depth: 0, callables: 0, stack, running, payload, watch: None }
+    }
+
+    /// Ends the launch index unless there is stack for another program.
+    fn check_stack(&self) {
+        #[cold]
+        fn end(job: &Job<'_>) -> ! {
+            if job.exceptions.stack_overflow {
+                throw(ExceptionState::STACK_OVERFLOW);
+            }
+            trap(
+                "programs call each other so deep that the stack of the CPU's thread is used up: lower `trace_depth` or \
+                 `callable_depth` in `pipeline!`, or give the threads larger stacks (`RUST_MIN_STACK=16777216` in the \
+                 environment, or `stack_size` of a rayon pool that the launch is made in)"
+                    .into(),
+            )
+        }
+        if self.stack.is_reached() {
+            end(self.job);
+        }
+    }
+
     /// Runs the launch's ray-generation program for a launch index.
     pub fn raygen(job: &'c Job<'c>, index: UVec3, running: &'c Cell<&'static str>) {
         // It has no payload, and the frame needs one.
         let payload = Cell::new(WordBuffer::ZERO);
-        let call = Call { job, index, depth: 0, callables: 0, running, payload: &payload, watch: None };
+        let call = Call::root(job, index, running, &payload);
         let entry = &job.description.raygen[job.raygen].entry;
         let _ = call.run(entry, &job.sbt.raygen, job.raygen, Seen::NOTHING, &call);
     }
@@ -75,7 +102,7 @@ impl<'c> Call<'c> {
     ) -> bool {
         let Some(program) = &job.description.exceptions.program else { return false };
         let payload = Cell::new(WordBuffer::ZERO);
-        let call = Call { job, index, depth: 0, callables: 0, running, payload: &payload, watch: None };
+        let call = Call::root(job, index, running, &payload);
         let _ = call.run_with(&program.entry, &job.sbt.exception, 0, Seen::NOTHING, exception, &call);
         true
     }
@@ -137,6 +164,7 @@ impl<'c> Call<'c> {
                 job.depths.trace
             ));
         }
+        self.check_stack();
         let watch = job.checked.then(|| checks::trace(job, trace));
         let payload = Cell::from_mut(payload);
         let call = Call { depth, callables: 0, payload, watch: watch.as_ref(), ..*self };
@@ -170,6 +198,7 @@ impl<'c> Call<'c> {
                 job.depths.callables()
             ));
         }
+        self.check_stack();
         let callee = Call { callables, payload: Cell::from_mut(words), watch: None, ..*self };
         let _ = callee.run(&callable.entry, &job.sbt.callables, index, Seen::NOTHING, &callee);
     }
@@ -245,6 +274,14 @@ impl Executor for Call<'_> {
     fn transform_list_handle(&self, _: u32) -> u64 {
         trap("there is no primitive, so no transform list".into())
     }
+    unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
+        // SAFETY: the caller's.
+        let placed = match unsafe { handle::structure(ias) } {
+            Some(Accel::Ias(ias)) => ias.instances().get(index as usize),
+            _ => None,
+        };
+        placed.map_or_else(|| trap(format!("there is no instance {index} (guide 13.12, G073)")), handle::of)
+    }
     unsafe fn instance(&self, handle: u64) -> InstanceState {
         // SAFETY: the caller's.
         let Some(placed) = (unsafe { handle::instance(handle) }) else {
@@ -255,6 +292,17 @@ impl Executor for Call<'_> {
             child: handle::of(&*placed.instance.child),
             transform: rows(placed.instance.transform),
             inverse: rows(placed.inverse_transform()),
+        }
+    }
+    unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3] {
+        // SAFETY: the caller's.
+        let vertices = match unsafe { handle::structure(gas) } {
+            Some(Accel::Gas(gas)) => gas.triangle_vertices(sbt_gas_index, primitive),
+            _ => None,
+        };
+        match vertices {
+            Some(vertices) => vertices.map(Vec3::from_array),
+            None => trap(format!("there is no triangle {primitive} of record {sbt_gas_index} (guide 13.9, G058)")),
         }
     }
     fn object_to_world(&self) -> [[f32; 4]; 3] {

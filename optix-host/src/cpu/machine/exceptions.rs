@@ -47,7 +47,11 @@ impl Unhandled {
 fn describe(job: &Job<'_>, exception: &ExceptionState) -> String {
     let exceptions = &job.description.exceptions;
     let Ok(code) = u32::try_from(exception.code) else {
-        let what = if exception.code == TRACE_DEPTH_EXCEEDED { "trace depth exceeded" } else { "exception of OptiX" };
+        let what = match exception.code {
+            TRACE_DEPTH_EXCEEDED => "trace depth exceeded",
+            code if code == ExceptionState::STACK_OVERFLOW.code => "stack overflow",
+            _ => "exception of OptiX",
+        };
         return format!("{what} (code {})", exception.code);
     };
     let name = exceptions.variants.iter().find(|(known, _)| *known == code).map_or("?", |(_, name)| name);

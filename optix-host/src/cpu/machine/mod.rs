@@ -6,12 +6,14 @@
 //! | `traversal` | the programs that run during traversal, and what programs at a primitive may ask |
 //! | `exceptions` | what is thrown, and what becomes of it |
 //! | `handle` | traversable handles |
+//! | `stack` | how much of its stack a thread has left |
 //! | `checks` | what the checked mode traps |
 
 mod call;
 mod checks;
 mod exceptions;
 mod handle;
+mod stack;
 #[cfg(test)]
 mod tests;
 mod traversal;

@@ -39,6 +39,33 @@ enum Called {
     Nested(u32),
 }
 
+/// What the pipeline's plan says.
+#[derive(Clone, Copy)]
+struct Planned {
+    depths: Depths,
+    exceptions: Exceptions,
+}
+
+const PLANNED: Planned = Planned {
+    depths: Depths {
+        trace: 2,
+        trace_is_a_promise: false,
+        continuation: 0,
+        direct_from_traversal: 0,
+        direct_from_state: 3,
+    },
+    exceptions: Exceptions { stack_overflow: false, trace_depth: false, user: false },
+};
+
+/// What becomes of a launch index.
+#[derive(Debug, PartialEq)]
+enum Outcome {
+    Done,
+    Trapped(String),
+    /// By an exception that no program is told of.
+    Thrown(Vec<String>),
+}
+
 thread_local! {
     static SCRIPT: Cell<Option<Script>> = const { Cell::new(None) };
 }
@@ -168,7 +195,15 @@ fn lawful(custom: bool) -> Script {
 }
 
 /// Runs launch index (3, 1, 0) of a launch by the script; the message if it is trapped.
-fn run(custom: bool, checked: bool, mut script: Script) -> Option<String> {
+fn run(custom: bool, checked: bool, script: Script) -> Option<String> {
+    match run_planned(custom, checked, script, PLANNED) {
+        Outcome::Done => None,
+        Outcome::Trapped(message) => Some(message),
+        Outcome::Thrown(what) => panic!("{what:?}"),
+    }
+}
+
+fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned) -> Outcome {
     let sbt = SbtMapping::single(GeometryFlags::default());
     let gas = if custom {
         let boxes = vec![Aabb::new([0.0; 3], [1.0; 3])];
@@ -192,14 +227,8 @@ fn run(custom: bool, checked: bool, mut script: Script) -> Option<String> {
     };
     let job = Job {
         description: &PIPELINE,
-        depths: Depths {
-            trace: 2,
-            trace_is_a_promise: false,
-            continuation: 0,
-            direct_from_traversal: 0,
-            direct_from_state: 3,
-        },
-        exceptions: Exceptions::default(),
+        depths: planned.depths,
+        exceptions: planned.exceptions,
         sbt: &sbt,
         params: vec![0],
         raygen: 0,
@@ -207,7 +236,13 @@ fn run(custom: bool, checked: bool, mut script: Script) -> Option<String> {
         checked,
         unhandled: Unhandled::default(),
     };
-    run_index(&job, UVec3::new(3, 1, 0)).err().map(|error| error.to_string())
+    match run_index(&job, UVec3::new(3, 1, 0)) {
+        Err(error) => Outcome::Trapped(error.to_string()),
+        Ok(()) => match job.unhandled.reports() {
+            reports if reports.is_empty() => Outcome::Done,
+            reports => Outcome::Thrown(reports),
+        },
+    }
 }
 
 /// The call, changed, is trapped in checked mode, with all of these words in the message, and not otherwise.
@@ -337,4 +372,31 @@ fn callables() {
             "{message}"
         );
     }
+}
+
+/// Deeper than the thread's stack, whatever the plan allows.
+#[test]
+fn stacks_that_are_used_up() {
+    let depths = Depths { trace: u32::MAX, direct_from_state: u32::MAX, ..PLANNED.depths };
+    let endless = Planned { depths, ..PLANNED };
+    let in_thread = |script, planned| {
+        let run = move || run_planned(false, false, script, planned);
+        std::thread::Builder::new().stack_size(512 << 10).spawn(run).unwrap().join().unwrap()
+    };
+    let mut traces = lawful(false);
+    traces.nested = 1_000_000;
+    let calls = Script { callable: Called::Nested(1_000_000), ..lawful(false) };
+    for (script, program) in [(traces, "__closesthit__test"), (calls, "__direct_callable__test")] {
+        let Outcome::Trapped(message) = in_thread(script, endless) else { panic!("there is no such stack") };
+        assert!(message.contains("stack") && message.contains(program) && message.contains("[3, 1, 0]"), "{message}");
+        let exceptions = Exceptions { stack_overflow: true, ..PLANNED.exceptions };
+        let Outcome::Thrown(what) = in_thread(script, Planned { exceptions, ..endless }) else {
+            panic!("no exception")
+        };
+        assert!(what[0].contains("stack overflow (code -1)") && what[0].contains(program), "{what:?}");
+    }
+    // The declared depth fits into a small stack.
+    traces.nested = 30;
+    let declared = Depths { trace: 31, ..PLANNED.depths };
+    assert_eq!(in_thread(traces, Planned { depths: declared, ..PLANNED }), Outcome::Done);
 }

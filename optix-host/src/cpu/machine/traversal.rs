@@ -44,9 +44,17 @@ macro_rules! of_path {
         fn transform_list_handle(&self, index: u32) -> u64 {
             self.path.instances().nth(index as usize).map_or(0, handle::of)
         }
+        unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
+            // SAFETY: the caller's.
+            unsafe { self.call.instance_traversable_from_ias(ias, index) }
+        }
         unsafe fn instance(&self, handle: u64) -> InstanceState {
             // SAFETY: the caller's.
             unsafe { self.call.instance(handle) }
+        }
+        unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3] {
+            // SAFETY: the caller's.
+            unsafe { self.call.triangle_vertices_from_handle(gas, primitive, sbt_gas_index) }
         }
     };
 }

@@ -15,6 +15,14 @@ pub enum Fault {
     Lost,
 }
 
+pub fn instances() -> Instances {
+    unreachable!()
+}
+
+pub fn triangles() -> TriangleVertices {
+    unreachable!()
+}
+
 pub fn direct() -> Callable<fn(u32) -> u32> {
     unreachable!()
 }
@@ -35,8 +43,10 @@ mod device_functions_in_raygen {
         let _ = None::<InstanceHandle>.map(InstanceHandle::id);
         let _ = None::<InstanceHandle>.map(InstanceHandle::transform);
         let _ = None::<InstanceHandle>.map(InstanceHandle::inverse_transform);
+        let _ = instances().get(at, 0);
         let _ = HitKind::TRIANGLE_BACK_FACE.primitive_type();
         let _ = HitKind::TRIANGLE_BACK_FACE.face();
+        let _ = triangles().get(at, 0, 0);
         let _ = || at.throw(Fault::Lost);
         let _ = direct().call(at, 1);
         let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
@@ -57,8 +67,10 @@ mod device_functions_in_intersection {
         let _ = None::<InstanceHandle>.map(InstanceHandle::id);
         let _ = None::<InstanceHandle>.map(InstanceHandle::transform);
         let _ = None::<InstanceHandle>.map(InstanceHandle::inverse_transform);
+        let _ = instances().get(at, 0);
         let _ = HitKind::TRIANGLE_BACK_FACE.primitive_type();
         let _ = HitKind::TRIANGLE_BACK_FACE.face();
+        let _ = triangles().get(at, 0, 0);
         let _ = || at.throw(Fault::Lost);
         let _ = direct().call(at, 1);
         let _ = at.world_ray_origin();
@@ -101,8 +113,10 @@ mod device_functions_in_anyhit {
         let _ = None::<InstanceHandle>.map(InstanceHandle::id);
         let _ = None::<InstanceHandle>.map(InstanceHandle::transform);
         let _ = None::<InstanceHandle>.map(InstanceHandle::inverse_transform);
+        let _ = instances().get(at, 0);
         let _ = HitKind::TRIANGLE_BACK_FACE.primitive_type();
         let _ = HitKind::TRIANGLE_BACK_FACE.face();
+        let _ = triangles().get(at, 0, 0);
         let _ = || at.throw(Fault::Lost);
         let _ = direct().call(at, 1);
         let _ = at.world_ray_origin();
@@ -152,8 +166,10 @@ mod device_functions_in_closesthit {
         let _ = None::<InstanceHandle>.map(InstanceHandle::id);
         let _ = None::<InstanceHandle>.map(InstanceHandle::transform);
         let _ = None::<InstanceHandle>.map(InstanceHandle::inverse_transform);
+        let _ = instances().get(at, 0);
         let _ = HitKind::TRIANGLE_BACK_FACE.primitive_type();
         let _ = HitKind::TRIANGLE_BACK_FACE.face();
+        let _ = triangles().get(at, 0, 0);
         let _ = || at.throw(Fault::Lost);
         let _ = direct().call(at, 1);
         let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
@@ -203,8 +219,10 @@ mod device_functions_in_miss {
         let _ = None::<InstanceHandle>.map(InstanceHandle::id);
         let _ = None::<InstanceHandle>.map(InstanceHandle::transform);
         let _ = None::<InstanceHandle>.map(InstanceHandle::inverse_transform);
+        let _ = instances().get(at, 0);
         let _ = HitKind::TRIANGLE_BACK_FACE.primitive_type();
         let _ = HitKind::TRIANGLE_BACK_FACE.face();
+        let _ = triangles().get(at, 0, 0);
         let _ = || at.throw(Fault::Lost);
         let _ = direct().call(at, 1);
         let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
@@ -232,8 +250,10 @@ mod device_functions_in_exception {
         let _ = None::<InstanceHandle>.map(InstanceHandle::id);
         let _ = None::<InstanceHandle>.map(InstanceHandle::transform);
         let _ = None::<InstanceHandle>.map(InstanceHandle::inverse_transform);
+        let _ = instances().get(at, 0);
         let _ = HitKind::TRIANGLE_BACK_FACE.primitive_type();
         let _ = HitKind::TRIANGLE_BACK_FACE.face();
+        let _ = triangles().get(at, 0, 0);
         let _ = at.exception_code();
         let _ = at.line_info();
         let _ = at.raised();
@@ -252,8 +272,10 @@ mod device_functions_in_direct_callable {
         let _ = None::<InstanceHandle>.map(InstanceHandle::id);
         let _ = None::<InstanceHandle>.map(InstanceHandle::transform);
         let _ = None::<InstanceHandle>.map(InstanceHandle::inverse_transform);
+        let _ = instances().get(at, 0);
         let _ = HitKind::TRIANGLE_BACK_FACE.primitive_type();
         let _ = HitKind::TRIANGLE_BACK_FACE.face();
+        let _ = triangles().get(at, 0, 0);
         let _ = || at.throw(Fault::Lost);
         let _ = direct().call(at, 1);
     }
@@ -271,8 +293,10 @@ mod device_functions_in_continuation_callable {
         let _ = None::<InstanceHandle>.map(InstanceHandle::id);
         let _ = None::<InstanceHandle>.map(InstanceHandle::transform);
         let _ = None::<InstanceHandle>.map(InstanceHandle::inverse_transform);
+        let _ = instances().get(at, 0);
         let _ = HitKind::TRIANGLE_BACK_FACE.primitive_type();
         let _ = HitKind::TRIANGLE_BACK_FACE.face();
+        let _ = triangles().get(at, 0, 0);
         let _ = || at.throw(Fault::Lost);
         let _ = direct().call(at, 1);
         let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });

@@ -190,4 +190,53 @@ mod view_that_is_none {
     }
 }
 
+mod twin_structure_without_instances {
+    use optix_device_rs::host::{InstanceTable, World};
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    pub struct Frame {
+        pub lamps: Instances,
+    }
+
+    pub fn frame(world: World, instances: InstanceTable) -> FrameHost {
+        let _ = (&world, &instances);
+        FrameHost { lamps: instances }
+    }
+}
+
+mod twin_triangles_of_instances {
+    use optix_device_rs::host::{InstanceTable, TriangleTable};
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    pub struct Frame {
+        pub bulb: TriangleVertices,
+    }
+
+    pub fn frame(instances: InstanceTable, triangles: TriangleTable) -> FrameHost {
+        let _ = (&instances, &triangles);
+        FrameHost { bulb: triangles }
+    }
+}
+
+mod twin_lowered_by_hand {
+    use optix_device_rs::host::{Buffer, KeepAlive, Twin};
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Painted {
+        pub texels: Slice<Vec4>,
+    }
+
+    pub fn texels(record: &PaintedHost) -> Buffer<Vec4> {
+        record.texels.clone()
+    }
+
+    pub fn lower(record: &PaintedHost, keep: &mut KeepAlive) -> Painted {
+        record.lower(keep)
+    }
+}
+
 fn main() {}

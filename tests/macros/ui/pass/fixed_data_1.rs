@@ -348,4 +348,28 @@ mod record_packed {
     }
 }
 
+mod record_hides_instances {
+    use optix_device_rs::prelude::*;
+
+    type Lamps = Instances;
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Lamp {
+        #[view]
+        pub lamps: Lamps,
+    }
+}
+
+mod element_with_instances {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, DeviceData)]
+    #[repr(C)]
+    pub struct Lamp {
+        #[view]
+        pub lamps: Instances,
+    }
+}
+
 fn main() {}

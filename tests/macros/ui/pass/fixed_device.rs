@@ -173,4 +173,87 @@ mod device_writes_params {
     }
 }
 
+mod device_instances_without_context {
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    pub struct Frame {
+        pub lamps: Instances,
+    }
+
+    #[raygen]
+    pub fn camera<P: Pipeline<Params = Frame>>(rg: &RayGen<P>) {
+        let _ = rg.params().lamps().get(rg, 0).id();
+    }
+}
+
+mod device_instances_of_a_traversable {
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    pub struct Frame {
+        pub world: Traversable,
+        pub lamps: Instances,
+    }
+
+    #[raygen]
+    pub fn camera<P: Pipeline<Params = Frame>>(rg: &RayGen<P>) {
+        let _ = rg.params().lamps().get(rg, 0).id();
+    }
+}
+
+mod device_instances_forged {
+    use optix_device_rs::prelude::*;
+
+    pub fn of(lamps: Instances) -> Instances {
+        lamps
+    }
+}
+
+mod device_triangles_by_hit_handle {
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    pub struct Frame {
+        pub bulb: TriangleVertices,
+    }
+
+    #[closesthit]
+    pub fn shade<P: Pipeline<Params = Frame>>(hit: &ClosestHit<P, Triangles>) {
+        let _ = hit.params().bulb().get(hit, hit.sbt_gas_index(), hit.primitive_index() + 1);
+    }
+}
+
+mod device_triangle_of_no_record {
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    pub struct Frame {
+        pub bulb: TriangleVertices,
+    }
+
+    #[raygen]
+    pub fn camera<P: Pipeline<Params = Frame>>(rg: &RayGen<P>) {
+        let [_, _, _] = rg.params().bulb().get(rg, 0, 7);
+    }
+}
+
+mod device_forged_context {
+    use optix_device_rs::prelude::*;
+
+    pub struct Both<'a, P>(&'a DirectCallable<P>);
+
+    pub fn id<P>(both: Both<'_, P>, lamps: Instances) -> u32 {
+        lamps.get(both.0, 0).id()
+    }
+}
+
+mod device_instance_outlives_its_program {
+    use optix_device_rs::prelude::*;
+
+    pub fn first<'a, P>(rg: &'a RayGen<P>, lamps: Instances) -> InstanceHandle<'a> {
+        lamps.get(rg, 0)
+    }
+}
+
 fn main() {}

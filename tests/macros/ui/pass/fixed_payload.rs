@@ -380,4 +380,29 @@ mod payload_unknown_party {
     }
 }
 
+mod payload_instance_handle {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Found {
+        #[payload(write(caller, closesthit), read(caller))]
+        pub instance: u64,
+    }
+}
+
+mod payload_forged_nothing_to_write {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Radiance {
+        #[payload(write(closesthit, miss), read(caller))]
+        pub light: Vec3,
+    }
+
+    #[miss]
+    fn dark<P: Pipeline>(_: &Miss<P>) -> RadianceFromMiss {
+        RadianceFromMiss { light: Vec3::ZERO }
+    }
+}
+
 fn main() {}

@@ -92,4 +92,29 @@ mod words_not_copy {
     pub struct Id(pub u32);
 }
 
+mod attributes_forged_same_hits {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct BoxHit {
+        pub side: u32,
+    }
+
+    pub type CubeHit = BoxHit;
+}
+
+mod attributes_forged_triangles {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct BallHit {
+        pub at: Vec2,
+    }
+
+    #[closesthit]
+    fn shade<P: Pipeline>(hit: &ClosestHit<P, BallHit>) {
+        let _ = hit.attributes().at;
+    }
+}
+
 fn main() {}

@@ -1,0 +1,172 @@
+//! Acceleration structures that programs read without a hit: the instances of an IAS and the triangles of a GAS, by number
+//! (guide 13.9, 13.12). Any kind of program may.
+//!
+//! Both are fields of launch parameters and records, and travel in payloads. On the host a structure that is built for it
+//! gives their owners: `scene.ias(..).build_with_instances()`, `scene.gas(..).build_with_triangles()`.
+//!
+//! ```
+//! use optix_device_rs::prelude::*;
+//!
+//! #[launch_params]
+//! pub struct Frame {
+//!     pub lamps: Instances,    // where each lamp stands
+//!     pub bulb: TriangleVertices, // the shape of all of them
+//! }
+//!
+//! /// A corner of a lamp, in the space of the lamps' structure.
+//! fn corner(at: &impl Context, lamps: Instances, bulb: TriangleVertices, lamp: u32, triangle: u32) -> Vec3 {
+//!     let [corner, ..] = bulb.get(at, 0, triangle);
+//!     lamps.get(at, lamp).transform().point(corner)
+//! }
+//! ```
+
+use crate::data::DeviceData;
+use crate::machine::check;
+use crate::program::{Context, Here, InstanceHandle};
+use crate::view::Slice;
+use crate::words::Words;
+use glam::Vec3;
+
+/// The instances of an IAS, in the order in which the application gave them.
+///
+/// On the host it is an [`InstanceTable`](crate::host::InstanceTable).
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct Instances {
+    ias: u64,
+    len: u64,
+}
+
+/// The triangles of a GAS.
+///
+/// On the host it is a [`TriangleTable`](crate::host::TriangleTable).
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct TriangleVertices {
+    gas: u64,
+    /// Per record of the GAS: triangles in its build input.
+    counts: Slice<u32>,
+}
+
+impl Instances {
+    /// From a machine's handle; for backends.
+    ///
+    /// # Safety
+    /// The handle is of an IAS with `len` instances, built with random instance access on the machine that launches, and
+    /// stays alive while programs may use the view.
+    #[doc(hidden)]
+    pub const unsafe fn from_raw(ias: u64, len: u64) -> Self {
+        Self { ias, len }
+    }
+
+    #[doc(hidden)]
+    pub const fn to_raw(self) -> [u64; 2] {
+        [self.ias, self.len]
+    }
+
+    /// How many there are: one at the least.
+    #[inline(always)]
+    #[expect(clippy::len_without_is_empty, reason = "never empty")]
+    pub const fn len(self) -> u32 {
+        self.len as u32
+    }
+
+    /// Instance `index`, as in [`instance_index`](crate::program::ClosestHit::instance_index); `context` is that of the running
+    /// program (`optixGetInstanceTraversableFromIAS`). An index out of range ends the program.
+    #[inline(always)]
+    pub fn get<C: Context>(self, context: &C, index: u32) -> InstanceHandle<'_> {
+        let message = format_args!("instance {index} is out of range: the structure has {}", self.len);
+        check(u64::from(index), self.len, message);
+        let cx = context.machine(Here(()));
+        // SAFETY: the structure has such an instance, and was built for this (`from_raw`).
+        InstanceHandle::new(*cx, unsafe { cx.instance_traversable_from_ias(self.ias, index) })
+    }
+}
+
+impl TriangleVertices {
+    /// From a machine's handle; for backends.
+    ///
+    /// # Safety
+    /// The handle is of a GAS of triangles, built with random vertex access on the machine that launches, and stays alive while
+    /// programs may use the view; it has as many records as `counts`, each of a build input with so many triangles.
+    #[doc(hidden)]
+    pub const unsafe fn from_raw(gas: u64, counts: Slice<u32>) -> Self {
+        Self { gas, counts }
+    }
+
+    #[doc(hidden)]
+    pub const fn to_raw(self) -> [u64; 3] {
+        let [address, len] = self.counts.to_raw();
+        [self.gas, address, len]
+    }
+
+    /// How many records the GAS has: one for each material of each geometry, in order.
+    #[inline(always)]
+    pub const fn records(self) -> u32 {
+        self.counts.len() as u32
+    }
+
+    /// How many triangles the geometry of a record has. A record out of range ends the program.
+    #[inline(always)]
+    pub fn triangles(self, sbt_gas_index: u32) -> u32 {
+        self.counts.get(sbt_gas_index)
+    }
+
+    /// The vertices of a triangle, in object space: triangle `primitive_index` of the geometry that has the record
+    /// `sbt_gas_index`; the two as a hit's context gives them. `context` is that of the running program
+    /// (`optixGetTriangleVertexDataFromHandle`). NaN for a triangle without area, which no ray meets. An index out of range ends
+    /// the program.
+    #[inline(always)]
+    pub fn get<C: Context>(self, context: &C, sbt_gas_index: u32, primitive_index: u32) -> [Vec3; 3] {
+        let count = self.triangles(sbt_gas_index);
+        let message = format_args!("triangle {primitive_index} is out of range: record {sbt_gas_index} has {count}");
+        check(u64::from(primitive_index), u64::from(count), message);
+        // SAFETY: the structure has such a triangle, and was built for this (`from_raw`).
+        unsafe { context.machine(Here(())).triangle_vertices_from_handle(self.gas, primitive_index, sbt_gas_index) }
+    }
+}
+
+macro_rules! view {
+    ($($name:ident, $words:literal, |$raw:ident| $from:expr;)*) => {$(
+        // SAFETY: `#[repr(C)]` integers of 64 bits, the same on both machines.
+        unsafe impl DeviceData for $name {
+            #[inline]
+            fn write_to(&self, bytes: &mut [u8]) {
+                self.to_raw().write_to(bytes);
+            }
+            const UNIT: usize = u64::UNIT;
+        }
+
+        impl Words for $name {
+            const COUNT: usize = 2 * $words;
+            #[inline(always)]
+            fn store(self, words: &mut [u32]) {
+                self.to_raw().store(words);
+            }
+            #[inline(always)]
+            unsafe fn load(words: &[u32]) -> Self {
+                // SAFETY: the words are of a view that was stored, so what it promises holds for this one too.
+                unsafe {
+                    let $raw = <[u64; $words]>::load(words);
+                    $from
+                }
+            }
+        }
+    )*};
+}
+view! {
+    Instances, 2, |raw| Self::from_raw(raw[0], raw[1]);
+    TriangleVertices, 3, |raw| Self::from_raw(raw[0], Slice::from_raw(raw[1], raw[2]));
+}
+
+impl core::fmt::Debug for Instances {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "Instances({})", self.len)
+    }
+}
+
+impl core::fmt::Debug for TriangleVertices {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "TriangleVertices({} records)", self.records())
+    }
+}
