@@ -421,8 +421,11 @@ mod tests {
         let helper = format!("call helper, ();\n}}\n.func helper()\n{{\n{TRACE_RAY} {DIRECT}");
         let raygen = (Place::RayGen, "__raygen__a", helper.as_str());
         let miss = (Place::Shading(0), "__miss__b", "");
-        let found = depths(&[raygen, miss], [None; 2]).unwrap();
+        let direct = (Place::Direct, "__direct_callable__d", "");
+        let found = depths(&[raygen, miss, direct], [None; 2]).unwrap();
         assert_eq!((found.trace, found.direct_from_state), (1, 1));
+        // Without a record there is nothing to call.
+        assert_eq!(depths(&[raygen, miss], [None; 2]).unwrap().direct_from_state, 0);
     }
 
     #[test]
