@@ -152,11 +152,11 @@ fn pipeline(input: ParseStream<'_>, errors: &mut Errors) -> Result<Pipeline> {
         seen.push(word.clone());
         input.parse::<Token![:]>()?;
         match word.as_str() {
-            "params" => pipeline.params = Some(input.parse()?),
+            "params" => pipeline.params = Some(Type::without_plus(input)?),
             "trace_depth" => pipeline.trace_depth = Some(input.parse()?),
             "crate" => pipeline.krate = crate_path(input)?,
             "callable_depth" => pipeline.callable_depth = Some(input.parse()?),
-            "throws" => pipeline.throws = Some(input.parse()?),
+            "throws" => pipeline.throws = Some(Type::without_plus(input)?),
             "exception" => {
                 if input.peek(syn::token::Bracket) {
                     return Err(input.error("a pipeline has one exception program: write its name without brackets"));
@@ -285,7 +285,7 @@ fn program(input: ParseStream<'_>) -> Result<Path> {
 }
 
 fn ray(input: ParseStream<'_>, errors: &mut Errors) -> Result<Ray> {
-    let mut ray = Ray { payload: input.parse()?, miss: None };
+    let mut ray = Ray { payload: Type::without_plus(input)?, miss: None };
     if !input.peek(syn::token::Brace) {
         return Err(input
             .error("expected the ray type's miss program in braces: `Radiance { miss: sky }`, or `{}` without one"));
@@ -318,7 +318,7 @@ fn ray(input: ParseStream<'_>, errors: &mut Errors) -> Result<Ray> {
 const GROUP: &str = "Lambert on Triangles => { Radiance { closesthit: lambert }, Shadow {} }";
 
 fn group(input: ParseStream<'_>, errors: &mut Errors) -> Result<Group> {
-    let record: Type = input.parse()?;
+    let record = Type::without_plus(input)?;
     let on = input.parse::<Ident>().ok().filter(|on| on == "on");
     if on.is_none() {
         return Err(Error::new(record.span(), format!("expected a material on a kind of geometry: `{GROUP}`")));
@@ -356,7 +356,7 @@ fn group(input: ParseStream<'_>, errors: &mut Errors) -> Result<Group> {
 }
 
 fn programs(input: ParseStream<'_>, errors: &mut Errors) -> Result<Programs> {
-    let mut programs = Programs { ray: input.parse()?, closesthit: None, anyhit: None, intersection: None };
+    let mut programs = Programs { ray: Type::without_plus(input)?, closesthit: None, anyhit: None, intersection: None };
     if !input.peek(syn::token::Brace) {
         return Err(input.error(
             "expected the programs for this ray type in braces: `Radiance { closesthit: lambert }`, or `{}` without any",
