@@ -3,7 +3,7 @@
 #[path = "common/libm.rs"]
 mod libm;
 
-use libm::{FUNCTIONS, FUNCTIONS_2, acosf, atan2f, cosf, expf, log2f, logf, powf, sincosf, sinf, tanf};
+use libm::{FUNCTIONS, FUNCTIONS_2, acosf, acosh, atan2f, cosf, expf, log2f, logf, powf, sincosf, sinf, tanf};
 
 #[test]
 fn errors_are_below_their_bounds() {
@@ -36,6 +36,35 @@ fn signs_and_symmetries_are_kept() {
         assert_eq!(cosf(-x), cosf(x));
         assert_eq!(tanf(-x), -tanf(x));
         assert_eq!(sincosf(x), (sinf(x), cosf(x)));
+    }
+}
+
+#[test]
+fn there_are_no_values_outside_of_domains() {
+    const INFINITY: f32 = f32::INFINITY;
+    let domains = [
+        ("asinf", -1.0f32, 1.0f32),
+        ("acosf", -1.0, 1.0),
+        ("acoshf", 1.0, INFINITY),
+        ("atanhf", -1.0, 1.0),
+        ("logf", 0.0, INFINITY),
+        ("log2f", 0.0, INFINITY),
+        ("log10f", 0.0, INFINITY),
+        ("log1pf", -1.0, INFINITY),
+    ];
+    let sample = || (0..=u32::MAX).step_by(65_521).map(f32::from_bits);
+    for (name, low, high) in domains {
+        let function = FUNCTIONS.into_iter().find(|function| function.name == name).expect("it is measured");
+        let ends = [-INFINITY, low.next_down(), high.next_up(), INFINITY, f32::NAN];
+        for x in sample().chain(ends).filter(|x| !(low..=high).contains(x)) {
+            assert!((function.ours)(x).is_nan(), "{name} of {x:e}");
+        }
+    }
+    assert!(sample().filter(|x| *x < 1.0).all(|x| acosh(x.into()).is_nan()));
+    for x in sample().filter(|x| *x < 0.0 && x.is_finite()) {
+        for y in [0.5, -0.5, 1.0f32.next_up(), -2.4, 1e-45, 8_388_607.5] {
+            assert!(powf(x, y).is_nan(), "powf of {x:e} and {y:e}");
+        }
     }
 }
 

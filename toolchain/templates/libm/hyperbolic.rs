@@ -1,4 +1,4 @@
-//! Hyperbolic functions in `f32`.
+//! Hyperbolic functions in `f32`, and the inverse of the cosine within its domain.
 
 use super::exp::{expf, scaled_exp};
 use super::fmaf;
@@ -46,4 +46,16 @@ pub fn tanhf(x: f32) -> f32 {
         1.0 - 2.0 / (expf(a + a) + 1.0)
     };
     value.copysign(x)
+}
+
+/// Inverse hyperbolic cosine. The original cancels at large negative numbers, and has a value of what is left.
+#[inline(always)]
+pub fn acoshf(x: f32) -> f32 {
+    if x < 1.0 { f32::NAN } else { software::acoshf(x) }
+}
+
+/// Inverse hyperbolic cosine of an `f64`, as [`acoshf`].
+#[inline(always)]
+pub fn acosh(x: f64) -> f64 {
+    if x < 1.0 { f64::NAN } else { software::acosh(x) }
 }

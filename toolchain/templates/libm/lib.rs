@@ -14,7 +14,7 @@ mod root;
 mod sin_cos;
 
 pub use exp::{exp2f, exp10f, expf};
-pub use hyperbolic::{coshf, sinhf, tanhf};
+pub use hyperbolic::{acosh, acoshf, coshf, sinhf, tanhf};
 pub use inverse::{acosf, asinf, atan2f, atanf};
 pub use log::{log2f, log10f, logf, powf};
 pub use root::{cbrtf, hypotf};

@@ -43,7 +43,7 @@ const LOG2_E: [f32; 2] = [core::f32::consts::LOG2_E, 1.925_963e-8];
 const LOG10_E: [f32; 2] = [core::f32::consts::LOG10_E, -1.010_305e-8];
 const LOG10_2: [f32; 2] = [0.301_025_4, 4.605_039e-6];
 
-/// Natural logarithm. Error below 0.9 ulp (docs/maths.md).
+/// Natural logarithm. Error below 1 ulp (docs/maths.md).
 #[inline(always)]
 pub fn logf(x: f32) -> f32 {
     let (e, f) = split(x);
@@ -51,7 +51,7 @@ pub fn logf(x: f32) -> f32 {
     special(x, sum(e * LN2[0], f, tail))
 }
 
-/// Logarithm of base 2. Error below 0.9 ulp (docs/maths.md).
+/// Logarithm of base 2. Error below 1.1 ulp (docs/maths.md).
 #[inline(always)]
 pub fn log2f(x: f32) -> f32 {
     let (e, f) = split(x);
@@ -60,7 +60,7 @@ pub fn log2f(x: f32) -> f32 {
     special(x, sum(e, head, tail))
 }
 
-/// Logarithm of base 10. Error below 0.9 ulp (docs/maths.md).
+/// Logarithm of base 10. Error below 1.3 ulp (docs/maths.md).
 #[inline(always)]
 pub fn log10f(x: f32) -> f32 {
     let (e, f) = split(x);
