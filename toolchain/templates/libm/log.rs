@@ -51,7 +51,7 @@ pub fn logf(x: f32) -> f32 {
     special(x, sum(e * LN2[0], f, tail))
 }
 
-/// Logarithm of base 2. Error below 1.1 ulp (docs/maths.md).
+/// Logarithm of base 2. Error below 1.5 ulp (docs/maths.md).
 #[inline(always)]
 pub fn log2f(x: f32) -> f32 {
     let (e, f) = split(x);
@@ -60,7 +60,7 @@ pub fn log2f(x: f32) -> f32 {
     special(x, sum(e, head, tail))
 }
 
-/// Logarithm of base 10. Error below 1.3 ulp (docs/maths.md).
+/// Logarithm of base 10. Error below 1.8 ulp (docs/maths.md).
 #[inline(always)]
 pub fn log10f(x: f32) -> f32 {
     let (e, f) = split(x);
