@@ -110,7 +110,7 @@ pub const TABLE: &[Function] = {
             &[bound(Absolute, 0.5, 2.0, -22.0), bound(Relative, LEAST, 0.5, -22.0), bound(Relative, 2.0, MAX, -22.0)],
             &[bound(Absolute, 0.5, 2.0, -22.0), bound(Ulps, LEAST, 0.5, 2.5), bound(Ulps, 2.0, MAX, 2.5)],
         ),
-        one("log10", |x, _| x.log10(), &[ulps(1.8)], &[rounded(2)]).fast(
+        one("log10", |x, _| x.log10(), &[ulps(2.1)], &[rounded(2)]).fast(
             &[bound(Absolute, 0.5, 2.0, -24.0), bound(Ulps, LEAST, 0.5, 3.5), bound(Ulps, 2.0, MAX, 3.5)],
             &[bound(Absolute, 0.5, 2.0, -24.0), bound(Ulps, LEAST, 0.5, 3.5), bound(Ulps, 2.0, MAX, 3.5)],
         ),

@@ -60,7 +60,7 @@ pub fn log2f(x: f32) -> f32 {
     special(x, sum(e, head, tail))
 }
 
-/// Logarithm of base 10. Error below 1.8 ulp (docs/maths.md).
+/// Logarithm of base 10. Error below 2.1 ulp (docs/maths.md).
 #[inline(always)]
 pub fn log10f(x: f32) -> f32 {
     let (e, f) = split(x);
