@@ -192,7 +192,7 @@ impl Onb {
     #[inline(always)]
     pub fn around(normal: Vec3) -> Self {
         let sign = 1.0f32.copysign(normal.z);
-        let a = -1.0 / (sign + normal.z);
+        let a = (-sign - normal.z).recip();
         let b = normal.x * normal.y * a;
         Self {
             tangent: Vec3::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),

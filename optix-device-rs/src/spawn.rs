@@ -93,12 +93,12 @@ impl SurfacePoint {
         let object_error = (error + mapping).dot(normal.abs()) + residual;
 
         let world_normal = world_to_object.normal(normal);
-        let scale = world_normal.length();
+        let per_length = world_normal.length().recip();
         Self {
             position,
-            normal: world_normal / scale,
+            normal: world_normal * per_length,
             // The sums above are of positive terms, each with a few roundings itself.
-            error: object_error / scale * (1.0 + gamma(16)),
+            error: object_error * per_length * (1.0 + gamma(16)),
         }
     }
 
@@ -127,8 +127,10 @@ impl SurfacePoint {
 /// `v` with length 1, also where its square would underflow or overflow.
 #[inline(always)]
 fn unit(v: Vec3) -> Vec3 {
-    let largest = v.abs().max_element();
-    (v / largest).normalize()
+    // By a power of two, which is exact, from the exponent alone: 2^-e for a largest element from 2^e to 2^(e+1).
+    let exponent = v.abs().max_element().to_bits() & 0x7f80_0000;
+    let scale = f32::from_bits(0x7f00_0000u32.saturating_sub(exponent).max(0x0080_0000));
+    (v * scale).normalize()
 }
 
 /// `|A| p + |a|` for the affine map `A, a`.

@@ -1,7 +1,8 @@
 //! Typed views of device memory: what a `Slice<T>` field of parameters or records is inside a program.
 //!
-//! An index out of range ends the program (a trap on the device, an error with the launch index on the CPU); no access
-//! is outside the buffer. See [below](#checks) for what that costs. Memory that programs write is shared by all launch indices: writes of one may be seen by
+//! An index out of range ends the launch (on the device by an access to an address that no memory can have, which costs no
+//! branch; on the CPU with an error that names the launch index); no access is to memory outside the buffer. See
+//! [below](#checks) for what that costs. Memory that programs write is shared by all launch indices: writes of one may be seen by
 //! another at any time until the launch ends (guide 6.2), but are never torn below 32 bits.
 //!
 //! Views come from the host, in parameters and records, and travel in payloads and attributes, whose words are loaded only
@@ -9,7 +10,7 @@
 //!
 //! # Checks
 //!
-//! A check is one comparison and one predicated trap, without a branch, and no load waits for it. To have fewer:
+//! A check is a comparison and a select, without a branch. To have fewer:
 //!
 //! - Let an element be what is read together. A `Slice<[u32; 3]>` of triangles has one check where a `Slice<u32>` has three,
 //!   and one field of a struct costs what all of them do.
@@ -113,11 +114,12 @@ unsafe fn write<T: Element>(at: *mut T, value: T) {
     }
 }
 
-/// Ends the program unless `index < len`.
+/// The address of element `index` of `len` elements of type `T` at `address`.
 #[inline(always)]
-fn check(what: &str, index: u64, len: u64) {
+fn element<T>(what: &str, address: u64, index: u32, len: u32) -> u64 {
     let message = format_args!("{what} index {index} is out of range: the buffer has {len} elements");
-    crate::machine::check(index, len, message);
+    let element = address.wrapping_add(u64::from(index) * size_of::<T>() as u64);
+    crate::machine::address_if([(index, len)], element, message)
 }
 
 macro_rules! linear_view {
@@ -126,7 +128,8 @@ macro_rules! linear_view {
         #[repr(C)]
         pub struct $name<T> {
             address: u64,
-            len: u64,
+            len: u32,
+            zero: u32,
             elements: PhantomData<$ptr>,
         }
 
@@ -151,7 +154,7 @@ macro_rules! linear_view {
 
         impl<T: Element> $name<T> {
             /// No elements.
-            pub const EMPTY: Self = Self { address: 0, len: 0, elements: PhantomData };
+            pub const EMPTY: Self = Self { address: 0, len: 0, zero: 0, elements: PhantomData };
 
             /// From an address; for backends.
             ///
@@ -160,15 +163,16 @@ macro_rules! linear_view {
             /// the view.
             #[doc(hidden)]
             pub const unsafe fn from_raw(address: u64, len: u64) -> Self {
-                Self { address, len, elements: PhantomData }
+                let len = if len > u32::MAX as u64 { u32::MAX } else { len as u32 };
+                Self { address, len, zero: 0, elements: PhantomData }
             }
 
             #[doc(hidden)]
             pub const fn to_raw(self) -> [u64; 2] {
-                [self.address, self.len]
+                [self.address, self.len as u64]
             }
 
-            /// How many elements there are.
+            /// How many elements there are. Of a larger buffer the first 2^32 - 1 are in the view.
             #[inline(always)]
             pub const fn len(self) -> usize {
                 self.len as usize
@@ -180,12 +184,12 @@ macro_rules! linear_view {
                 self.len == 0
             }
 
-            /// The element at `index`. An index out of range ends the program.
+            /// The element at `index`. An index out of range ends the launch.
             #[inline(always)]
             pub fn get(self, index: u32) -> T {
-                check($what, u64::from(index), self.len);
-                // SAFETY: in range, and `from_raw` promised `len` valid elements.
-                unsafe { read((self.address as *const T).add(index as usize)) }
+                let at = element::<T>($what, self.address, index, self.len);
+                // SAFETY: in range, and `from_raw` promised `len` valid elements; otherwise no address at all.
+                unsafe { read(at as *const T) }
             }
 
             /// The element at `index`, which is checked only where debug assertions are on.
@@ -195,7 +199,7 @@ macro_rules! linear_view {
             #[inline(always)]
             pub unsafe fn get_unchecked(self, index: u32) -> T {
                 if cfg!(debug_assertions) {
-                    check($what, u64::from(index), self.len);
+                    return self.get(index);
                 }
                 // SAFETY: in range, says the caller, and `from_raw` promised `len` valid elements.
                 unsafe { read((self.address as *const T).add(index as usize)) }
@@ -221,12 +225,12 @@ linear_view! {
 }
 
 impl<T: Element> SliceMut<T> {
-    /// Sets the element at `index`. An index out of range ends the program.
+    /// Sets the element at `index`. An index out of range ends the launch.
     #[inline(always)]
     pub fn set(self, index: u32, value: T) {
-        check("SliceMut", u64::from(index), self.len);
-        // SAFETY: in range, and `from_raw` promised `len` valid elements.
-        unsafe { write((self.address as *mut T).add(index as usize), value) }
+        let at = element::<T>("SliceMut", self.address, index, self.len);
+        // SAFETY: in range, and `from_raw` promised `len` valid elements; otherwise no address at all.
+        unsafe { write(at as *mut T, value) }
     }
 
     /// Sets the element at `index`, which is checked only where debug assertions are on.
@@ -236,7 +240,7 @@ impl<T: Element> SliceMut<T> {
     #[inline(always)]
     pub unsafe fn set_unchecked(self, index: u32, value: T) {
         if cfg!(debug_assertions) {
-            check("SliceMut", u64::from(index), self.len);
+            return self.set(index, value);
         }
         // SAFETY: in range, says the caller, and `from_raw` promised `len` valid elements.
         unsafe { write((self.address as *mut T).add(index as usize), value) }
@@ -295,24 +299,24 @@ impl<T: Element> SliceMut2d<T> {
 
     #[inline(always)]
     fn at(self, at: UVec2) -> *mut T {
-        check("column", u64::from(at.x), u64::from(self.width));
-        check("row", u64::from(at.y), u64::from(self.height));
-        let index = at.y as usize * self.width as usize + at.x as usize;
-        // Stays inside the array: both coordinates are in range.
-        (self.address as *mut T).wrapping_add(index)
+        let size = self.size();
+        let message = format_args!("({}, {}) is out of range: the array has {} x {} elements", at.x, at.y, size.x, size.y);
+        let index = u64::from(at.y) * u64::from(size.x) + u64::from(at.x);
+        let element = self.address.wrapping_add(index.wrapping_mul(size_of::<T>() as u64));
+        crate::machine::address_if([(at.x, size.x), (at.y, size.y)], element, message) as *mut T
     }
 
-    /// The element in column `at.x` of row `at.y`. A place outside ends the program.
+    /// The element in column `at.x` of row `at.y`. A place outside ends the launch.
     #[inline(always)]
     pub fn get(self, at: UVec2) -> T {
-        // SAFETY: `at` is in range, and `from_raw` promised valid elements.
+        // SAFETY: `at` is in range, and `from_raw` promised valid elements; otherwise no address at all.
         unsafe { read(self.at(at)) }
     }
 
-    /// Sets the element in column `at.x` of row `at.y`. A place outside ends the program.
+    /// Sets the element in column `at.x` of row `at.y`. A place outside ends the launch.
     #[inline(always)]
     pub fn set(self, at: UVec2, value: T) {
-        // SAFETY: `at` is in range, and `from_raw` promised valid elements.
+        // SAFETY: `at` is in range, and `from_raw` promised valid elements; otherwise no address at all.
         unsafe { write(self.at(at), value) }
     }
 }

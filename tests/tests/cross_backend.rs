@@ -9,7 +9,7 @@ use optix_host::{Device, OptixOptions};
 use optix_tests::devices;
 use optix_tests::probe::{Part, ProbeHit, ProbeRay, Tracer, ray};
 use path_tracer::render::{LARGEST_PASS, Render, Settings};
-use path_tracer::scene::{self, Cornell, LIGHT};
+use path_tracer::scene::{self, Cornell};
 use path_tracer::shaders::Pinhole;
 
 /// The triangles of the default scene. The mesh stands turned, so transforms count.
@@ -27,7 +27,8 @@ impl Triangles {
         let turned = Affine3A::from_rotation_y(0.3) * Affine3A::from_scale(Vec3::new(1.05, 0.9, 1.1));
         let (corner, side, other) = scene::leaf();
         let here = Affine3A::IDENTITY;
-        let lamp = scene::parallelogram(LIGHT.corner, LIGHT.side, LIGHT.other);
+        let light = scene::light();
+        let lamp = scene::parallelogram(light.corner, light.side, light.other);
         Self {
             parts: vec![
                 (scene::walls().concat(), None, here),

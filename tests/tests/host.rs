@@ -98,7 +98,7 @@ fn a_bound_parameter_that_differs_is_refused() {
     let pipeline = Pipeline::for_scene(&scene).bind(path_tracer::shaders::Frame::MAX_BOUNCES, 3).build().unwrap();
     let film = || device.zeroed_2d([4, 4]).unwrap();
     let camera = path_tracer::shaders::Pinhole::look_at(Vec3::Z * 3.0, Vec3::ZERO, Vec3::Y, 0.7, 1.0);
-    let light = AreaLight { corner: Vec3::Z, side: Vec3::X, other: Vec3::Y, emission: Vec3::ONE };
+    let light = AreaLight::new(Vec3::Z, Vec3::X, Vec3::Y, Vec3::ONE);
     let mut frame = path_tracer::shaders::FrameHost {
         sum: film(),
         squares: film(),

@@ -29,12 +29,9 @@ pub fn knot() -> Mesh {
 }
 
 /// The light: below the ceiling, downwards.
-pub const LIGHT: AreaLight = AreaLight {
-    corner: Vec3::new(-0.3, 0.995, -0.3),
-    side: Vec3::new(0.6, 0.0, 0.0),
-    other: Vec3::new(0.0, 0.0, 0.6),
-    emission: Vec3::new(14.0, 12.0, 9.5),
-};
+pub fn light() -> AreaLight {
+    AreaLight::new(Vec3::new(-0.3, 0.995, -0.3), 0.6 * Vec3::X, 0.6 * Vec3::Z, Vec3::new(14.0, 12.0, 9.5))
+}
 
 /// A parallelogram as two triangles, `p00 p10 p11` and `p00 p11 p01`; its front is where `side` x `other` points.
 pub fn parallelogram(corner: Vec3, side: Vec3, other: Vec3) -> [Vec3; 6] {
@@ -82,8 +79,9 @@ impl Cornell {
         }
         let room = scene.gas(room).compact().build()?;
 
-        let emitter = scene.material(Emitter { emission: LIGHT.emission })?;
-        let lamp = scene.geometry(TriangleMesh::new(&parallelogram(LIGHT.corner, LIGHT.side, LIGHT.other)))?;
+        let light = light();
+        let emitter = scene.material(Emitter { emission: light.emission })?;
+        let lamp = scene.geometry(TriangleMesh::new(&parallelogram(light.corner, light.side, light.other)))?;
         let lamp = scene.gas([lamp.with(&emitter)]).compact().build()?;
 
         let positions: Vec<Vec3> = mesh.positions.iter().map(|&p| p.into()).collect();
@@ -118,6 +116,6 @@ impl Cornell {
         ]);
         let world = world.build()?.world()?;
         let camera = Pinhole::look_at(Vec3::new(0.0, 0.0, 3.9), Vec3::ZERO, Vec3::Y, 0.69, aspect);
-        Ok(Self { scene, world, light: LIGHT, camera })
+        Ok(Self { scene, world, light, camera })
     }
 }

@@ -70,7 +70,7 @@ fn each_word(payload: &Cell<WordBuffer>) -> &[Cell<u32>; MAX_PAYLOAD_WORDS] {
 
 /// Ends the program with this message unless `index < len`.
 #[inline(always)]
-pub fn check(index: u64, len: u64, message: core::fmt::Arguments<'_>) {
+pub fn check(index: u32, len: u32, message: core::fmt::Arguments<'_>) {
     #[cold]
     #[inline(never)]
     fn end(message: core::fmt::Arguments<'_>) -> ! {
@@ -79,6 +79,15 @@ pub fn check(index: u64, len: u64, message: core::fmt::Arguments<'_>) {
     if index >= len {
         end(message);
     }
+}
+
+/// The address, if each index is below its length; otherwise ends the program with this message.
+#[inline(always)]
+pub fn address_if<const N: usize>(in_range: [(u32, u32); N], address: u64, message: core::fmt::Arguments<'_>) -> u64 {
+    for (index, len) in in_range {
+        check(index, len, message);
+    }
+    address
 }
 
 /// `OptixPrimitiveType` of a hit kind.

@@ -5,14 +5,12 @@
 #[cfg(target_arch = "nvptx64")]
 mod ptx;
 #[cfg(target_arch = "nvptx64")]
-pub use ptx::{
-    Cx, ParamsBase, UNWRITTEN, approximate, check, is_back_face, load_param, primitive_type_of, trap, unwritten,
-};
+pub use ptx::{Cx, ParamsBase, UNWRITTEN, address_if, approximate, check, is_back_face, load_param, primitive_type_of, trap, unwritten};
 
 #[cfg(not(target_arch = "nvptx64"))]
 mod host;
 #[cfg(not(target_arch = "nvptx64"))]
-pub use host::{Cx, ParamsBase, UNWRITTEN, check, is_back_face, load_param, primitive_type_of, unwritten};
+pub use host::{Cx, ParamsBase, UNWRITTEN, address_if, check, is_back_face, load_param, primitive_type_of, unwritten};
 
 /// The arguments of a trace call but for the payload, all derived from the ray and the ray type.
 #[derive(Clone, Copy, Debug)]

@@ -91,7 +91,7 @@ struct Onb {
     float3 tangent, bitangent, normal;
     DEVICE Onb around(float3 n) {
         float sign = copysignf(1.0f, n.z);
-        float a = -1.0f / (sign + n.z);
+        float a = 1.0f / (-sign - n.z);
         float b = n.x * n.y * a;
         return {make_float3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x),
                 make_float3(b, sign + n.y * n.y * a, -n.y), n};
@@ -146,8 +146,8 @@ struct SurfacePoint {
         float3 mapping = to_object.absolute(abs(position)) * factor;
         float object_error = dot(error + mapping, abs(normal)) + residual;
         float3 world_normal = to_object.normal(normal);
-        float scale = length(world_normal);
-        return {position, world_normal / scale, object_error / scale * (1.0f + Gamma<16>::value)};
+        float per_length = 1.0f / length(world_normal);
+        return {position, world_normal * per_length, object_error * per_length * (1.0f + Gamma<16>::value)};
     }
     DEVICE SurfacePoint of_triangle_hit() {
         float3 p[3];
@@ -158,7 +158,8 @@ struct SurfacePoint {
         float3 t0 = p[0] * b0, t1 = p[1] * b.x, t2 = p[2] * b.y;
         float3 object = t0 + t1 + t2;
         float3 c = cross(e1, e2);
-        float3 n = normalize(c / max_element(abs(c)));
+        int exponent = __float_as_int(max_element(abs(c))) & 0x7f800000;
+        float3 n = normalize(c * __int_as_float(max(0x7f000000 - exponent, 0x00800000)));
         float3 interpolation = (abs(t0) + abs(t1) + abs(t2)) * Gamma<5>::value + abs(p[0]) * (2.0f * U);
         float3 intersection = (abs(e1) + abs(e2)) * Gamma<16>::value;
         return of_object(object, n, interpolation + intersection, object_to_world(), world_to_object());

@@ -2,7 +2,9 @@
 #include "common.h"
 
 struct AreaLight {
-    float3 corner, side, other, emission;
+    float3 corner, side, other, normal;
+    float area;
+    float3 emission;
 };
 
 struct Frame {
@@ -103,20 +105,19 @@ DEVICE float3 direct(const SurfacePoint& point, float3 geometric, float3 normal,
     shadow_rays = 0;
     AreaLight area_light = params.light;
     float3 to = area_light.corner + area_light.side * at.x + area_light.other * at.y;
-    float3 area_normal = cross(area_light.side, area_light.other);
-    float area = length(area_normal);
     float3 d = to - point.position;
     float distance2 = dot(d, d);
-    float cos_light = -dot(area_normal, d), cos_surface = dot(normal, d);
+    float cos_light = -dot(area_light.normal, d), cos_surface = dot(normal, d);
     if (cos_light <= 0.0f || cos_surface <= 0.0f || dot(geometric, d) <= 0.0f) return splat(0.0f);
-    SurfacePoint end{to, area_normal / area, max_element(abs(to)) * Gamma<16>::value};
+    SurfacePoint end{to, area_light.normal, max_element(abs(to)) * Gamma<16>::value};
     float3 origin = point.origin(d);
+    float share = cos_light * cos_surface / (3.14159265f * distance2 * distance2);
     u32 visible = 0;
     optixTrace(SHADOW, params.world, origin, end.origin(-d) - origin, 0.0f, 1.0f, 0.0f, 255,
                OPTIX_RAY_FLAG_TERMINATE_ON_FIRST_HIT | OPTIX_RAY_FLAG_DISABLE_CLOSESTHIT, 1, 2, 1, visible);
     shadow_rays = 1;
     if (!visible) return splat(0.0f);
-    return area_light.emission * (cos_light * cos_surface / (3.14159265f * distance2 * distance2));
+    return area_light.emission * (area_light.area * share);
 }
 
 DEVICE void diffuse(const SurfacePoint& point, float3 shading, float3 albedo) {
@@ -125,15 +126,17 @@ DEVICE void diffuse(const SurfacePoint& point, float3 shading, float3 albedo) {
     float3 geometric = dot(point.normal, incoming) > 0.0f ? -point.normal : point.normal;
     float3 normal = dot(shading, geometric) < 0.0f ? -shading : shading;
     if (dot(normal, incoming) > 0.0f) normal = geometric;
-    u32 shadow_rays;
-    float3 light = direct(point, geometric, normal, rng.next_vec2(), shadow_rays);
+    float2 on_light = rng.next_vec2();
     float3 direction = Onb::around(normal).to_world(cosine(rng.next_vec2()));
     float3 weight = dot(direction, geometric) > 0.0f ? albedo : splat(0.0f);
+    float3 origin = point.origin(direction);
+    u32 shadow_rays;
+    float3 light = direct(point, geometric, normal, on_light, shadow_rays);
     optixSetPayload_0((u32)rng.state);
     optixSetPayload_1((u32)(rng.state >> 32));
     optixSetPayload_2((u32)rng.increment);
     optixSetPayload_3((u32)(rng.increment >> 32));
-    answer(light * albedo, weight, point.origin(direction), direction, false, shadow_rays);
+    answer(light * albedo, weight, origin, direction, false, shadow_rays);
 }
 
 ENTRY(closesthit, PathTracer_surface_lambert_Lambert_Radiance) {

@@ -11,10 +11,22 @@ pub struct AreaLight {
     pub corner: Vec3,
     /// From the corner along one side.
     pub side: Vec3,
-    /// From the corner along the other; `side` x `other` points to where the light goes.
+    /// From the corner along the other.
     pub other: Vec3,
+    /// Length 1, to where the light goes.
+    pub normal: Vec3,
+    /// Its area.
+    pub area: f32,
     /// Radiance that it emits.
     pub emission: Vec3,
+}
+
+impl AreaLight {
+    /// The light at `corner` with these sides; `side` x `other` points to where the light goes.
+    pub fn new(corner: Vec3, side: Vec3, other: Vec3, emission: Vec3) -> Self {
+        let across = side.cross(other);
+        Self { corner, side, other, normal: across.normalize(), area: across.length(), emission }
+    }
 }
 
 /// The surface of the light.

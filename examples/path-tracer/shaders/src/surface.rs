@@ -66,15 +66,18 @@ pub(crate) fn diffuse(
     // A shading normal that the ray sees from behind is no use.
     let normal = if normal.dot(incoming) > 0.0 { geometric } else { normal };
 
-    let (light, shadow_rays) = direct(hit, point, geometric, normal, rng.next_vec2());
+    // The way on before the shadow ray: what is kept over a trace call costs memory traffic.
+    let on_light = rng.next_vec2();
     let direction = Onb::around(normal).to_world(cosine(rng.next_vec2()));
     // A direction into the surface, possible where the shading normal leans over, carries nothing.
-    let weight = if direction.dot(geometric) > 0.0 { albedo } else { Vec3::ZERO };
+    let weight = Vec3::select(BVec3::splat(direction.dot(geometric) > 0.0), albedo, Vec3::ZERO);
+    let origin = point.origin(direction);
+    let (light, shadow_rays) = direct(hit, point, geometric, normal, on_light);
     RadianceFromClosestHit {
         rng,
         light: light * albedo,
         weight,
-        origin: point.origin(direction),
+        origin,
         direction,
         specular: false,
         shadow_rays,
@@ -92,26 +95,26 @@ fn direct(
     let frame = hit.params();
     let area_light = frame.light();
     let to = area_light.corner + area_light.side * at.x + area_light.other * at.y;
-    let area_normal = area_light.side.cross(area_light.other);
-    let area = area_normal.length();
     let d = to - point.position;
     let distance2 = d.length_squared();
-    let cos_light = -area_normal.dot(d);
+    let cos_light = -area_light.normal.dot(d);
     let cos_surface = normal.dot(d);
     if cos_light <= 0.0 || cos_surface <= 0.0 || geometric.dot(d) <= 0.0 {
         return (Vec3::ZERO, 0);
     }
     // The light's own point is as exact as its coordinates.
     let error = to.abs().max_element() * optix_device_rs::spawn::gamma(16);
-    let end = SurfacePoint::new(to, area_normal / area, error);
+    let end = SurfacePoint::new(to, area_light.normal, error);
     let shadow = point.ray_to(&end).flags(RayFlags::NONE.terminate_on_first_hit());
+    let share = cos_light * cos_surface / (core::f32::consts::PI * distance2 * distance2);
     let seen = hit.trace_without_closesthit::<Shadow>(frame.world(), shadow, ShadowFromCaller { visible: false });
     if !seen.visible {
         return (Vec3::ZERO, 1);
     }
-    // area * cos * cos / (pi * distance^2), with both cosines still times the distance and one times the area.
-    // Asked for again, since what is kept over a trace call costs memory traffic.
-    (frame.light().emission * (cos_light * cos_surface / (core::f32::consts::PI * distance2 * distance2)), 1)
+    // area * cos * cos / (pi * distance^2), with both cosines still times the distance. The light is asked for again, since
+    // it need not be kept over the trace call then.
+    let light = frame.light();
+    (light.emission * (light.area * share), 1)
 }
 
 /// A direction around +z, by the cosine: a point of the unit disk, raised (Malley's method).

@@ -32,22 +32,36 @@ pub fn trap() -> ! {
     unsafe { asm!("trap; exit;", options(noreturn, nomem)) }
 }
 
-/// Ends the program unless `index < len`.
-///
-/// A predicated instruction: a branch would hold back the loads behind it until the ones that the index came from are done.
+/// Ends the launch unless `index < len`.
 ///
 /// The message is the host's: the device has no use for it.
 #[inline(always)]
-pub fn check(index: u64, len: u64, _: core::fmt::Arguments<'_>) {
-    // SAFETY: `trap` ends the launch.
-    unsafe {
-        asm!(
-            "{{ .reg .pred p; setp.ge.u64 p, {index}, {len}; @p trap; }}",
-            index = in(reg64) index,
-            len = in(reg64) len,
-            options(nomem, nostack, preserves_flags)
-        )
+pub fn check(index: u32, len: u32, _: core::fmt::Arguments<'_>) {
+    if index >= len {
+        trap()
     }
+}
+
+/// The address, if each index is below its length; otherwise one that no memory has (addresses have 49 bits), so that an
+/// access ends the launch.
+///
+/// Two instructions an index, and no branch: a trap takes six, and what holds launches up is the fetching of instructions.
+#[inline(always)]
+pub fn address_if<const N: usize>(in_range: [(u32, u32); N], mut address: u64, _: core::fmt::Arguments<'_>) -> u64 {
+    for (index, len) in in_range {
+        // SAFETY: no effect but on the address.
+        unsafe {
+            asm!(
+                "{{ .reg .pred p; .reg .b32 low, high; setp.lt.u32 p, {index}, {len}; mov.b64 {{low, high}}, {address}; ",
+                "selp.b32 high, high, 0xffffffff, p; mov.b64 {address}, {{low, high}}; }}",
+                index = in(reg32) index,
+                len = in(reg32) len,
+                address = inout(reg64) address,
+                options(pure, nomem, nostack, preserves_flags)
+            )
+        }
+    }
+    address
 }
 
 /// The running program: no state, the intrinsics know.
