@@ -19,7 +19,9 @@ pub use crate::rng::Pcg32;
 pub use crate::spawn::SurfacePoint;
 pub use crate::view::{Element, Slice, SliceMut, SliceMut2d};
 pub use crate::words::Words;
-pub use glam::{Affine3A, BVec2, BVec3, BVec4, Mat3, Mat4, Quat, UVec2, UVec3, UVec4, Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles};
+pub use glam::{
+    Affine3A, BVec2, BVec3, BVec4, Mat3, Mat4, Quat, UVec2, UVec3, UVec4, Vec2, Vec3, Vec3Swizzles, Vec4, Vec4Swizzles,
+};
 pub use optix_macros::{
     Attributes, DeviceData, Element, Payload, SbtRecord, UserException, Words, anyhit, closesthit,
     continuation_callable, direct_callable, exception, intersection, launch_params, miss, pipeline, raygen,

@@ -300,7 +300,8 @@ impl<T: Element> SliceMut2d<T> {
     #[inline(always)]
     fn at(self, at: UVec2) -> *mut T {
         let size = self.size();
-        let message = format_args!("({}, {}) is out of range: the array has {} x {} elements", at.x, at.y, size.x, size.y);
+        let message =
+            format_args!("({}, {}) is out of range: the array has {} x {} elements", at.x, at.y, size.x, size.y);
         let index = u64::from(at.y) * u64::from(size.x) + u64::from(at.x);
         let element = self.address.wrapping_add(index.wrapping_mul(size_of::<T>() as u64));
         crate::machine::address_if([(at.x, size.x), (at.y, size.y)], element, message) as *mut T

@@ -117,7 +117,7 @@ macro_rules! two_words {
             }
             #[inline(always)]
             unsafe fn load(words: &[u32]) -> Self {
-                let $bits = u64::from(words[0]) | u64::from(words[1]) << 32;
+                let $bits = crate::machine::wide(words[0], words[1]);
                 $from
             }
         }

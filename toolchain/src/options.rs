@@ -165,7 +165,9 @@ impl Shaders {
         // OptiX inlines every function anyway; called ones would only pass values through memory until then. Threads
         // part at a branch, so conditions are joined where that costs a few instructions. Peeling a loop copies the trace
         // calls in it, and each of those is a place where a program is cut in two.
-        let mut llvm = String::from("-inline-threshold=100000 -bonus-inst-threshold=10 -unroll-peel-max-count=0 -instcombine-code-sinking=false -disable-machine-sink");
+        let mut llvm = String::from(
+            "-inline-threshold=100000 -bonus-inst-threshold=10 -unroll-peel-max-count=0 -instcombine-code-sinking=false -disable-machine-sink",
+        );
         llvm.push_str(&format!(" -nvptx-fma-level={}", if self.fmad { 2 } else { 0 }));
         // `div.full`, `sqrt.approx`. LLVM has no switch for `ftz`: see `ptx::ftz`.
         if !self.prec_div {

@@ -90,6 +90,12 @@ pub fn address_if<const N: usize>(in_range: [(u32, u32); N], address: u64, messa
     address
 }
 
+/// The 64-bit value of two words.
+#[inline(always)]
+pub fn wide(low: u32, high: u32) -> u64 {
+    u64::from(low) | u64::from(high) << 32
+}
+
 /// `OptixPrimitiveType` of a hit kind.
 #[inline(always)]
 pub fn primitive_type_of(kind: u8) -> u32 {

@@ -13,9 +13,9 @@ use std::path::PathBuf;
 
 /// How often both pipelines are built: the same PTX runs at rates some percent apart from one build to the next, by where
 /// its code and tables come to lie.
-const BUILDS: usize = 6;
+const BUILDS: usize = 12;
 /// Paired launches with each build, after one that warms up.
-const PAIRS: usize = 6;
+const PAIRS: usize = 3;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1).filter(|a| !a.starts_with('-'));

@@ -73,15 +73,7 @@ pub(crate) fn diffuse(
     let weight = Vec3::select(BVec3::splat(direction.dot(geometric) > 0.0), albedo, Vec3::ZERO);
     let origin = point.origin(direction);
     let (light, shadow_rays) = direct(hit, point, geometric, normal, on_light);
-    RadianceFromClosestHit {
-        rng,
-        light: light * albedo,
-        weight,
-        origin,
-        direction,
-        specular: false,
-        shadow_rays,
-    }
+    RadianceFromClosestHit { rng, light: light * albedo, weight, origin, direction, specular: false, shadow_rays }
 }
 
 /// Light from a point of the area light, reflected by a white diffuse surface, and the shadow rays it took.
