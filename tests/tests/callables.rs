@@ -240,15 +240,42 @@ fn callables_of_scenes_do_not_mix() {
     );
 }
 
+/// A view's index out of range, and a table's, end the launch; nothing is written.
 #[test]
-fn tables_end() {
-    let device = Device::cpu().unwrap();
-    let mut machine = Machine::new(&device);
-    machine.shaders = machine.scene.callables(&[]).unwrap();
-    machine.pipeline = Pipeline::for_scene(&machine.scene).build().unwrap();
-    let frame = machine.frame(0, NOBODY).0;
-    let result = machine.pipeline.launch(&frame, [1, 1, 1]).and_then(|launch| launch.wait());
-    says(result, &["__raygen__", "callable 0 is out of range: the table has 0"]);
+fn indices_out_of_range_end_launches() {
+    const TEST: &str = "indices_out_of_range_end_launches";
+    const CHILD: &str = "OPTIX_TEST_OUT_OF_RANGE";
+    let launch = |device: &Device, short: bool| {
+        let mut machine = Machine::new(device);
+        let mut frame = machine.frame(0, NOBODY).0;
+        match short {
+            true => frame.found = device.zeroed(INDICES as usize - 1).unwrap(),
+            false => {
+                machine.shaders = machine.scene.callables(&[]).unwrap();
+                machine.pipeline = Pipeline::for_scene(&machine.scene).ptx(PTX).build().unwrap();
+                frame = machine.frame(0, NOBODY).0;
+            }
+        }
+        machine.pipeline.launch(&frame, [INDICES, 1, 1]).and_then(|launch| launch.wait())
+    };
+    if let Ok(short) = std::env::var(CHILD) {
+        let error = launch(&devices::optix(TEST).unwrap(), short == "view").expect_err("it ran to its end");
+        println!("{short}: {error}");
+        return;
+    }
+    let cpu = Device::cpu().unwrap();
+    says(launch(&cpu, true), &["__raygen__", "index 29 is out of range", "29 elements"]);
+    says(launch(&cpu, false), &["__raygen__", "callable 0 is out of range: the table has 0"]);
+    if devices::optix(TEST).is_some() {
+        // A failed launch takes its process's GPU context with it.
+        for short in ["view", "table"] {
+            let mut child = std::process::Command::new(std::env::current_exe().unwrap());
+            let output = child.args([TEST, "--exact", "--nocapture"]).env(CHILD, short).output().unwrap();
+            let text = String::from_utf8_lossy(&output.stdout);
+            assert!(output.status.success() && text.contains(&format!("{short}: ")), "{text}");
+            print!("{text}");
+        }
+    }
 }
 
 /// The error's text, which is to be one that names what is wrong.

@@ -160,14 +160,23 @@ impl Shaders {
         device_build::build(self, area.as_ref())
     }
 
+    /// Switches of LLVM's, for what is different about OptiX.
+    const LLVM: [&str; 5] = [
+        // It inlines every function anyway; called ones would only pass values through memory until then.
+        "-inline-threshold=100000",
+        // Threads part at a branch, so conditions are joined where that costs a few instructions.
+        "-bonus-inst-threshold=10",
+        // A peeled loop has its trace calls twice, and each of those is a place where a program is cut in two.
+        "-unroll-peel-max-count=0",
+        // What is computed in front of a trace call stays there. Behind it, all that it is made of would have to be kept
+        // in memory over the call.
+        "-instcombine-code-sinking=false",
+        "-disable-machine-sink",
+    ];
+
     /// What `rustc` is given for each crate of the device build, for its own code generator.
     pub(crate) fn rustflags(&self) -> Vec<String> {
-        // OptiX inlines every function anyway; called ones would only pass values through memory until then. Threads
-        // part at a branch, so conditions are joined where that costs a few instructions. Peeling a loop copies the trace
-        // calls in it, and each of those is a place where a program is cut in two.
-        let mut llvm = String::from(
-            "-inline-threshold=100000 -bonus-inst-threshold=10 -unroll-peel-max-count=0 -instcombine-code-sinking=false -disable-machine-sink",
-        );
+        let mut llvm = Self::LLVM.join(" ");
         llvm.push_str(&format!(" -nvptx-fma-level={}", if self.fmad { 2 } else { 0 }));
         // `div.full`, `sqrt.approx`. LLVM has no switch for `ftz`: see `ptx::ftz`.
         if !self.prec_div {

@@ -51,7 +51,7 @@ fn compare<P: Pipeline>(load: &Load<P>, generators: &[Generator]) -> Result<(), 
         let Some(peer) = named(peer) else { continue };
         let ours = generator.ptx::<P>(load.name, load.shaders)?;
         let theirs = peer.ptx::<P>(load.name, load.shaders)?;
-        let (mut times, mut ratios) = (Vec::new(), Vec::new());
+        let (mut times, mut ratios, mut instructions) = (Vec::new(), Vec::new(), [None; 2]);
         let mut pictures = [Vec::new(), Vec::new()];
         for build in 0..BUILDS {
             // Either one is built first, and launched first, as often.
@@ -59,6 +59,7 @@ fn compare<P: Pipeline>(load: &Load<P>, generators: &[Generator]) -> Result<(), 
             let [first, second] = if swap { [&theirs, &ours] } else { [&ours, &theirs] };
             let both = [load.pipeline(first)?, load.pipeline(second)?];
             let [mine, other] = if swap { [&both[1], &both[0]] } else { [&both[0], &both[1]] };
+            instructions = [mine.instructions().or(instructions[0]), other.instructions().or(instructions[1])];
             for (pipeline, picture) in [mine, other].into_iter().zip(&mut pictures) {
                 pipeline.launch()?;
                 *picture = load.picture()?;
@@ -76,7 +77,7 @@ fn compare<P: Pipeline>(load: &Load<P>, generators: &[Generator]) -> Result<(), 
             }
         }
         println!(
-            "{:12} {:14} {:8.3} ms, {} {:8.3} ms: {:.4} [{:.4}, {:.4}]; {}",
+            "{:12} {:14} {:8.3} ms, {} {:8.3} ms: {:.4} [{:.4}, {:.4}]; {}; {} of OptiX's instructions, {}",
             load.name,
             generator.name,
             median(times.iter().map(|t| t.0)),
@@ -86,9 +87,15 @@ fn compare<P: Pipeline>(load: &Load<P>, generators: &[Generator]) -> Result<(), 
             ratios.iter().copied().fold(f64::INFINITY, f64::min),
             ratios.iter().copied().fold(0.0, f64::max),
             Difference::of(&pictures[0], &pictures[1]),
+            known(instructions[0]),
+            known(instructions[1]),
         );
     }
     Ok(())
+}
+
+fn known(count: Option<u32>) -> String {
+    count.map_or("an unknown number".to_owned(), |count| count.to_string())
 }
 
 fn median(values: impl Iterator<Item = f64>) -> f64 {
