@@ -76,7 +76,7 @@ impl Instances {
     #[inline(always)]
     pub fn get<C: Context>(self, context: &C, index: u32) -> InstanceHandle<'_> {
         let message = format_args!("instance {index} is out of range: the structure has {}", self.len);
-        check(u64::from(index), self.len, message);
+        check(index, self.len(), message);
         let cx = context.machine(Here(()));
         // SAFETY: the structure has such an instance, and was built for this (`from_raw`).
         InstanceHandle::new(*cx, unsafe { cx.instance_traversable_from_ias(self.ias, index) })
@@ -120,7 +120,7 @@ impl TriangleVertices {
     pub fn get<C: Context>(self, context: &C, sbt_gas_index: u32, primitive_index: u32) -> [Vec3; 3] {
         let count = self.triangles(sbt_gas_index);
         let message = format_args!("triangle {primitive_index} is out of range: record {sbt_gas_index} has {count}");
-        check(u64::from(primitive_index), u64::from(count), message);
+        check(primitive_index, count, message);
         // SAFETY: the structure has such a triangle, and was built for this (`from_raw`).
         unsafe { context.machine(Here(())).triangle_vertices_from_handle(self.gas, primitive_index, sbt_gas_index) }
     }
