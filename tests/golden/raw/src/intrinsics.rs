@@ -52,18 +52,21 @@ macro_rules! get_f32 {
 
 pub(crate) use {get_f32, get_u32, param};
 
-/// Ends the launch unless `index < len`.
+/// The address, or one that no memory has unless `index < len`.
 #[inline(always)]
-pub fn check(index: u64, len: u64) {
-    // SAFETY: ends the launch.
+pub fn address_if(index: u32, len: u32, mut address: u64) -> u64 {
+    // SAFETY: arithmetic on registers.
     unsafe {
         asm!(
-            "{{ .reg .pred p; setp.ge.u64 p, {index}, {len}; @p trap; }}",
-            index = in(reg64) index,
-            len = in(reg64) len,
-            options(nomem, nostack, preserves_flags)
+            "{{ .reg .pred p; .reg .b32 low, high; setp.lt.u32 p, {index}, {len}; mov.b64 {{low, high}}, {address}; ",
+            "selp.b32 high, high, 0xffffffff, p; mov.b64 {address}, {{low, high}}; }}",
+            index = in(reg32) index,
+            len = in(reg32) len,
+            address = inout(reg64) address,
+            options(pure, nomem, nostack, preserves_flags)
         )
     }
+    address
 }
 
 #[inline(always)]

@@ -24,9 +24,9 @@ impl Film {
 
     #[inline(always)]
     fn set(self, index: u32, value: [f32; 4]) {
-        check(u64::from(index), self.1);
-        // SAFETY: inside of the film.
-        unsafe { (self.0 as *mut Float4).add(index as usize).write(Float4(value)) }
+        let at = address_if(index, self.1 as u32, self.0 + u64::from(index) * size_of::<Float4>() as u64);
+        // SAFETY: inside of the film, or nowhere.
+        unsafe { (at as *mut Float4).write(Float4(value)) }
     }
 }
 
@@ -132,6 +132,7 @@ pub unsafe extern "ptx-kernel" fn __anyhit__cut_out() {
     let layers = get_payload(4);
     // SAFETY: this program's record.
     let record = unsafe { &*record::<Lambert>() };
+    let layers = layers + 1;
     let decision = if get_u32!("_optix_read_primitive_idx") == record.id {
         Decision::Ignore
     } else if barycentrics()[0] > 0.5 {
@@ -140,7 +141,7 @@ pub unsafe extern "ptx-kernel" fn __anyhit__cut_out() {
         Decision::Accept
     };
     // Before the calls that end the program.
-    set_payload(4, layers + 1);
+    set_payload(4, layers);
     match decision {
         Decision::Accept => {}
         Decision::Ignore => ignore_intersection(),
