@@ -114,8 +114,8 @@ impl TriangleVertices {
 
     /// The vertices of a triangle, in object space: triangle `primitive_index` of the geometry that has the record
     /// `sbt_gas_index`; the two as a hit's context gives them. `context` is that of the running program
-    /// (`optixGetTriangleVertexDataFromHandle`). NaN for a triangle without area, which no ray meets. An index out of range ends
-    /// the program.
+    /// (`optixGetTriangleVertexDataFromHandle`). For a triangle without area, which no ray meets, NaN or its vertices: the CPU
+    /// says NaN, and a driver may. An index out of range ends the program.
     #[inline(always)]
     pub fn get<C: Context>(self, context: &C, sbt_gas_index: u32, primitive_index: u32) -> [Vec3; 3] {
         let count = self.triangles(sbt_gas_index);

@@ -3,7 +3,7 @@
 //! reflection and scales that differ.
 
 use glam::{Affine3A, Mat3A, Vec3, Vec3A};
-use optix_host::{Aabb, Boxes, Device, Pipeline, Scene, TriangleMesh};
+use optix_host::{Aabb, BackendKind, Boxes, Device, Pipeline, Scene, TriangleMesh};
 use optix_tests::{devices, probe::PTX};
 use path_tracer::shaders::Ball;
 use probe_shaders::queries::{Answer, Bare, Queries, QueryFrameHost, Reading, read};
@@ -127,8 +127,12 @@ fn programs_read_structures_by_number() {
         let aside = ASIDE.map(|v| v.to_array());
         assert_eq!(first.vertices, [CORNERS.map(|v| v.to_array()), aside], "{name}: triangle 0 of each record");
         assert_eq!(second.vertices[1], [aside[1], aside[2], aside[0]], "{name}: triangle 1 of the second record");
-        let without_area = second.vertices[0].as_flattened();
-        assert!(without_area.iter().all(|x| x.is_nan()), "{name}: a triangle without area is {without_area:?}");
+        // The guide lets a machine drop a triangle without area. The CPU does; the driver tried so far kept it.
+        let without_area = second.vertices[0];
+        let is_dropped = without_area.as_flattened().iter().all(|x| x.is_nan());
+        let is_kept = device.kind() != BackendKind::Cpu
+            && without_area == [CORNERS[0], CORNERS[0], CORNERS[1]].map(|v| v.to_array());
+        assert!(is_dropped || is_kept, "{name}: a triangle without area is {without_area:?}");
     }
 }
 
