@@ -24,7 +24,7 @@ use crate::data::DeviceData;
 use crate::machine::check;
 use crate::program::{Context, Here, InstanceHandle};
 use crate::view::Slice;
-use crate::words::Words;
+use crate::words::words_of_raw;
 use glam::Vec3;
 
 /// The instances of an IAS, in the order in which the application gave them.
@@ -126,8 +126,13 @@ impl TriangleVertices {
     }
 }
 
-macro_rules! view {
-    ($($name:ident, $words:literal, |$raw:ident| $from:expr;)*) => {$(
+words_of_raw! {
+    [] Instances: [u64; 2], |raw| Self::from_raw(raw[0], raw[1]);
+    [] TriangleVertices: [u64; 3], |raw| Self::from_raw(raw[0], Slice::from_raw(raw[1], raw[2]));
+}
+
+macro_rules! device_data {
+    ($($name:ident)*) => {$(
         // SAFETY: `#[repr(C)]` integers of 64 bits, the same on both machines.
         unsafe impl DeviceData for $name {
             #[inline]
@@ -136,28 +141,9 @@ macro_rules! view {
             }
             const UNIT: usize = u64::UNIT;
         }
-
-        impl Words for $name {
-            const COUNT: usize = 2 * $words;
-            #[inline(always)]
-            fn store(self, words: &mut [u32]) {
-                self.to_raw().store(words);
-            }
-            #[inline(always)]
-            unsafe fn load(words: &[u32]) -> Self {
-                // SAFETY: the words are of a view that was stored, so what it promises holds for this one too.
-                unsafe {
-                    let $raw = <[u64; $words]>::load(words);
-                    $from
-                }
-            }
-        }
     )*};
 }
-view! {
-    Instances, 2, |raw| Self::from_raw(raw[0], raw[1]);
-    TriangleVertices, 3, |raw| Self::from_raw(raw[0], Slice::from_raw(raw[1], raw[2]));
-}
+device_data!(Instances TriangleVertices);
 
 impl core::fmt::Debug for Instances {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

@@ -25,7 +25,7 @@
 //! ```
 
 use crate::data::DeviceData;
-use crate::words::Words;
+use crate::words::{Words, words_of_raw};
 use core::marker::PhantomData;
 
 /// A kind of callable: [`Direct`] or [`Continuation`].
@@ -135,20 +135,8 @@ impl<F: 'static, K: 'static> Words for Callable<F, K> {
     }
 }
 
-impl<F: 'static, K: 'static> Words for Callables<F, K> {
-    const COUNT: usize = 2;
-    #[inline(always)]
-    fn store(self, words: &mut [u32]) {
-        self.to_raw().store(words);
-    }
-    #[inline(always)]
-    unsafe fn load(words: &[u32]) -> Self {
-        // SAFETY: `Callables` of this type were stored.
-        unsafe {
-            let [first, len] = Words::load(words);
-            Self::from_raw(first, len)
-        }
-    }
+words_of_raw! {
+    [F: 'static, K: 'static] Callables<F, K>: [u32; 2], |raw| Self::from_raw(raw[0], raw[1]);
 }
 
 impl<F, K> core::fmt::Debug for Callable<F, K> {

@@ -6,7 +6,7 @@
 //! another at any time until the launch ends (guide 6.2), but are never torn below 32 bits.
 //!
 //! Views come from the host, in parameters and records, and travel in payloads and attributes, whose words are loaded only
-//! where they were stored ([`Words::load`]).
+//! where they were stored ([`Words::load`](crate::words::Words::load)).
 //!
 //! # Checks
 //!
@@ -20,7 +20,7 @@
 //!   with debug assertions, so the profile decides.
 
 use crate::data::DeviceData;
-use crate::words::Words;
+use crate::words::words_of_raw;
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 use core::sync::atomic::{AtomicU8, AtomicU32, Ordering::Relaxed};
@@ -322,27 +322,8 @@ impl<T: Element> SliceMut2d<T> {
     }
 }
 
-macro_rules! view_words {
-    ($($name:ident, |[$($raw:ident),*]| $from:expr;)*) => {$(
-        impl<T: Element> Words for $name<T> {
-            const COUNT: usize = 4;
-            #[inline(always)]
-            fn store(self, words: &mut [u32]) {
-                self.to_raw().store(words);
-            }
-            #[inline(always)]
-            unsafe fn load(words: &[u32]) -> Self {
-                // SAFETY: the words are of a view that was stored, so what it promises holds for this one too.
-                unsafe {
-                    let [$($raw),*]: [u64; 2] = Words::load(words);
-                    $from
-                }
-            }
-        }
-    )*};
-}
-view_words! {
-    Slice, |[address, len]| Self::from_raw(address, len);
-    SliceMut, |[address, len]| Self::from_raw(address, len);
-    SliceMut2d, |[address, size]| Self::from_raw(address, size as u32, (size >> 32) as u32);
+words_of_raw! {
+    [T: Element] Slice<T>: [u64; 2], |raw| Self::from_raw(raw[0], raw[1]);
+    [T: Element] SliceMut<T>: [u64; 2], |raw| Self::from_raw(raw[0], raw[1]);
+    [T: Element] SliceMut2d<T>: [u64; 2], |raw| Self::from_raw(raw[0], raw[1] as u32, (raw[1] >> 32) as u32);
 }

@@ -132,6 +132,28 @@ two_words! {
     [T: 'static] *mut T: |v| v.expose_provenance() as u64, |w| core::ptr::with_exposed_provenance_mut(w as usize);
 }
 
+/// Types that travel as the array of integers that their `to_raw` gives, and come back by a constructor for the stored ones.
+macro_rules! words_of_raw {
+    ($([$($generics:tt)*] $ty:ty: $raw_ty:ty, |$raw:ident| $from:expr;)*) => {$(
+        impl<$($generics)*> $crate::words::Words for $ty {
+            const COUNT: usize = <$raw_ty as $crate::words::Words>::COUNT;
+            #[inline(always)]
+            fn store(self, words: &mut [u32]) {
+                $crate::words::Words::store(self.to_raw(), words);
+            }
+            #[inline(always)]
+            unsafe fn load(words: &[u32]) -> Self {
+                // SAFETY: the words are of a value of this type that was stored, so what it promises holds for this one too.
+                unsafe {
+                    let $raw = <$raw_ty as $crate::words::Words>::load(words);
+                    $from
+                }
+            }
+        }
+    )*};
+}
+pub(crate) use words_of_raw;
+
 impl Words for () {
     const COUNT: usize = 0;
     #[inline(always)]
