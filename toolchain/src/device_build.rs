@@ -20,7 +20,7 @@ use crate::ptx;
 use crate::rust_cuda::{self, Backend};
 use crate::sysroot::Sysroot;
 use crate::util;
-use crate::wrapper::{PROFILE, Wrapper};
+use crate::wrapper::{BUILD_OVERRIDE, PROFILE, Wrapper};
 
 /// A compiled shader crate.
 #[derive(Clone, Debug)]
@@ -259,8 +259,14 @@ impl<'a> Session<'a> {
     fn make_sysroot(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(), Error> {
         if !self.sysroot.is_made() {
             let macros = self.graph.packages.iter().filter(|package| package.is_macro);
-            let macros: Vec<_> =
-                macros.map(|package| format!("--package={}@{}", package.name, package.version)).collect();
+            let macros: Vec<_> = macros
+                .flat_map(|package| {
+                    let id = format!("{}@{}", package.name, package.version);
+                    // Asked for by name, they would be optimised.
+                    let setting = |set| format!("--config=profile.{PROFILE}.package.{id:?}.{set}");
+                    std::iter::once(format!("--package={id}")).chain(BUILD_OVERRIDE.map(setting))
+                })
+                .collect();
             std::thread::scope(|scope| {
                 let core = scope.spawn(|| self.sysroot.make());
                 if !macros.is_empty() {

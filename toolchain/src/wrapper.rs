@@ -66,6 +66,9 @@ pub(crate) fn dependency(shaders: &Shaders, package: &Package) -> String {
     )
 }
 
+/// How proc macros and build scripts are compiled: in little time.
+pub(crate) const BUILD_OVERRIDE: [&str; 3] = ["opt-level = 0", "codegen-units = 16", "strip = false"];
+
 /// The manifest's table for the profile. Packages that share a folder for builds share proc macros if it is the same.
 pub(crate) fn profile(shaders: &Shaders) -> String {
     format!(
@@ -79,7 +82,10 @@ pub(crate) fn profile(shaders: &Shaders) -> String {
          strip = false\n\
          overflow-checks = {checks}\n\
          debug-assertions = {checks}\n\
-         incremental = false\n",
+         incremental = false\n\n\
+         [profile.{PROFILE}.build-override]\n\
+         {build_override}\n",
+        build_override = BUILD_OVERRIDE.join("\n"),
         debug = if shaders.line_info { "\"line-directives-only\"" } else { "false" },
         checks = shaders.checks.unwrap_or(false),
     )
