@@ -185,13 +185,15 @@ impl Shaders {
         if !self.prec_sqrt {
             llvm.push_str(" -nvptx-prec-sqrtf32=0");
         }
+        // For our `libm`.
+        let approximate_sqrt = (!self.prec_sqrt).then(|| "--cfg=optix_approximate_sqrt".into());
         let flags = [
             format!("-Ctarget-cpu={}", self.arch),
             // An indirect branch costs a GPU more than a few comparisons.
             "-Cjump-tables=no".into(),
             format!("-Cllvm-args={llvm}"),
         ];
-        flags.into_iter().chain(PANIC.map(String::from)).collect()
+        flags.into_iter().chain(approximate_sqrt).chain(PANIC.map(String::from)).collect()
     }
 
     /// Tells builds apart whose intermediate files must not be mixed.

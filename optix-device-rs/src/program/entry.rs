@@ -129,8 +129,13 @@ pub fn decide<T: Part>(cx: &Cx, (decision, part): (Decision, T)) -> Decision {
     #[cfg(target_arch = "nvptx64")]
     match decision {
         Decision::Accept => {}
-        Decision::Ignore => cx.ignore_intersection(),
-        Decision::Terminate => cx.terminate_ray(),
+        Decision::Ignore | Decision::Terminate => {
+            if let Decision::Terminate = decision {
+                cx.terminate_ray();
+            }
+            // Not reached after the other: a branch less than to the end.
+            cx.ignore_intersection();
+        }
     }
     decision
 }

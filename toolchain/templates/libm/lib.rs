@@ -5,6 +5,8 @@
 //! whether or not the compiler contracts the other operations.
 #![no_std]
 #![feature(core_float_math)]
+// `optix_approximate_sqrt` is a flag of the device build.
+#![allow(unexpected_cfgs, dead_code)]
 
 mod exp;
 mod hyperbolic;
@@ -17,6 +19,8 @@ pub use exp::{exp2f, exp10f, expf};
 pub use hyperbolic::{acosh, acoshf, coshf, sinhf, tanhf};
 pub use inverse::{acosf, asinf, atan2f, atanf};
 pub use log::{log2f, log10f, logf, powf};
+#[cfg(not(optix_approximate_sqrt))]
+pub use root::sqrt_rn as sqrtf;
 pub use root::{cbrtf, hypotf};
 pub use sin_cos::{cosf, sincosf, sinf, tanf};
 pub use software::*;
@@ -33,7 +37,6 @@ macro_rules! instructions {
 
 instructions! {
     f32:
-    sqrtf(x) = core::f32::math::sqrt;
     floorf(x) = core::f32::math::floor;
     ceilf(x) = core::f32::math::ceil;
     truncf(x) = core::f32::math::trunc;
@@ -45,6 +48,12 @@ instructions! {
     copysignf(x, y) = f32::copysign;
     fminf(x, y) = f32::min;
     fmaxf(x, y) = f32::max;
+}
+
+#[cfg(optix_approximate_sqrt)]
+instructions! {
+    f32:
+    sqrtf(x) = core::f32::math::sqrt;
 }
 
 instructions! {

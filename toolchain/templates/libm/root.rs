@@ -2,6 +2,45 @@
 
 use super::{fmaf, sqrtf};
 
+/// Square root, correctly rounded (docs/maths.md). The instruction `sqrt.rn` is more code, with a branch to
+/// a function for 0 and subnormal numbers that the rest of the warp waits for.
+#[inline(always)]
+pub fn sqrt_rn(x: f32) -> f32 {
+    // By 2^64, so that no rest is subnormal.
+    let is_small = x < 3.944_304_5e-31;
+    let scaled = if is_small { x * 1.844_674_4e19 } else { x };
+    let r = approximate_rsqrt(scaled);
+    let root = scaled * r;
+    let rest = fmaf(-root, root, scaled);
+    let root = fmaf(rest, 0.5 * r, root);
+    let root = if is_small { root * 2.328_306_4e-10 } else { root };
+    if (scaled == 0.0) | (scaled == f32::INFINITY) { scaled } else { root }
+}
+
+/// 1/sqrt(x) within 2^-22.9 of it, subnormal numbers taken for 0.
+#[cfg(target_arch = "nvptx64")]
+#[inline(always)]
+fn approximate_rsqrt(x: f32) -> f32 {
+    let bits: u32;
+    // SAFETY: arithmetic.
+    unsafe {
+        core::arch::asm!(
+            "{{ .reg .f32 f; mov.b32 f, {x}; rsqrt.approx.ftz.f32 f, f; mov.b32 {y}, f; }}",
+            x = in(reg32) x.to_bits(),
+            y = out(reg32) bits,
+            options(pure, nomem, nostack, preserves_flags)
+        )
+    };
+    f32::from_bits(bits)
+}
+
+/// The worst that the instruction does.
+#[cfg(not(target_arch = "nvptx64"))]
+fn approximate_rsqrt(x: f32) -> f32 {
+    let error = if x.to_bits() & 1 == 0 { 1.25e-7 } else { -1.25e-7 };
+    ((1.0 + error) / f64::from(x).sqrt()) as f32
+}
+
 /// Cube root. Error below 0.6 ulp (docs/maths.md).
 #[inline(always)]
 pub fn cbrtf(x: f32) -> f32 {

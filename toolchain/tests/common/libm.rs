@@ -18,17 +18,13 @@ pub use exp::{exp2f, exp10f, expf};
 pub use hyperbolic::{acosh, acoshf, coshf, sinhf, tanhf};
 pub use inverse::{acosf, asinf, atan2f, atanf};
 pub use log::{log2f, log10f, logf, powf};
-pub use root::{cbrtf, hypotf};
+pub use root::{cbrtf, hypotf, sqrt_rn as sqrtf};
 pub use sin_cos::{cosf, sincosf, sinf, tanf};
 pub use software::{asinhf, atanhf, expm1f, log1pf};
 
 /// What the generated `libm` crate has beside the modules.
 fn fmaf(x: f32, y: f32, z: f32) -> f32 {
     x.mul_add(y, z)
-}
-
-fn sqrtf(x: f32) -> f32 {
-    x.sqrt()
 }
 
 /// A function of one argument, what it computes, and the ulps by which it may miss that.
@@ -54,7 +50,7 @@ macro_rules! function {
 }
 
 /// The functions of one argument. The standard library's `f64` is off by less than 1e-8 of our ulps.
-pub const FUNCTIONS: [Function; 21] = [
+pub const FUNCTIONS: [Function; 22] = [
     function!(Function sinf, f64::sin, 1.6),
     function!(Function cosf, f64::cos, 1.6),
     function!(Function tanf, f64::tan, 3.1),
@@ -76,6 +72,7 @@ pub const FUNCTIONS: [Function; 21] = [
     function!(Function expm1f, f64::exp_m1, 1.0),
     function!(Function log1pf, f64::ln_1p, 1.0),
     function!(Function cbrtf, f64::cbrt, 0.6),
+    function!(Function sqrtf, f64::sqrt, 0.500_001),
 ];
 
 /// The functions of two arguments.

@@ -126,10 +126,7 @@ enum Decision {
     Terminate,
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "ptx-kernel" fn __anyhit__cut_out() {
-    set_payload_types(1);
-    let layers = get_payload(4);
+fn cut_out(layers: u32) -> (Decision, u32) {
     // SAFETY: this program's record.
     let record = unsafe { &*record::<Lambert>() };
     let layers = layers + 1;
@@ -140,12 +137,24 @@ pub unsafe extern "ptx-kernel" fn __anyhit__cut_out() {
     } else {
         Decision::Accept
     };
+    (decision, layers)
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "ptx-kernel" fn __anyhit__cut_out() {
+    set_payload_types(1);
+    let (decision, layers) = cut_out(get_payload(4));
     // Before the calls that end the program.
     set_payload(4, layers);
     match decision {
         Decision::Accept => {}
-        Decision::Ignore => ignore_intersection(),
-        Decision::Terminate => terminate_ray(),
+        Decision::Ignore | Decision::Terminate => {
+            if let Decision::Terminate = decision {
+                terminate_ray();
+            }
+            // Not reached after the other: a branch less than to the end.
+            ignore_intersection();
+        }
     }
 }
 

@@ -12,6 +12,7 @@ mod integers;
 mod intrinsics;
 mod libdevice;
 mod reduce;
+mod stores;
 mod widths;
 
 use std::collections::{BTreeMap, HashSet};
@@ -41,6 +42,7 @@ pub(super) fn module(module: &mut Module, text: &str) -> Result<bool, Refusal> {
         !function.blocks.is_empty() || !replaced
     });
     module.functions.iter_mut().for_each(widths::widen);
+    module.functions.iter_mut().for_each(stores::join);
     let needs_libdevice = called.keys().any(|name| name.starts_with(libdevice::PREFIX));
     module
         .functions

@@ -341,6 +341,34 @@ fn intrinsics_are_the_instructions_they_stand_for() {
     }
 }
 
+#[test]
+fn stores_side_by_side_are_one() {
+    let Some(library) = library("stores_side_by_side_are_one") else { return };
+    let stores = |align: u32, between: &str| {
+        let text = format!(
+            "define i32 @put(ptr %0, float %1, float %2, ptr %3) {{
+                store float %1, ptr %0, align {align}
+                %5 = getelementptr inbounds nuw i8, ptr %0, i64 4
+                store float %2, ptr %5, align 4
+                {between}
+                %7 = getelementptr inbounds nuw i8, ptr %0, i64 8
+                store float %2, ptr %7, align 8
+                %8 = getelementptr inbounds nuw i8, ptr %0, i64 12
+                store float 1.0, ptr %8, align 4
+                ret i32 0
+            }}"
+        );
+        let ptx = compile(&library, &text, "75");
+        ["st.v4.f32", "st.v2.f32", "st.f32"].map(|store| instructions(&ptx, "put").matches(store).count())
+    };
+    let nothing = "%6 = getelementptr i8, ptr %3, i64 4";
+    assert_eq!(stores(16, nothing), [1, 0, 0]);
+    assert_eq!(stores(8, nothing), [0, 2, 0]);
+    assert_eq!(stores(4, nothing)[2], 4 - 2 * stores(4, nothing)[1], "what may be unaligned stays apart");
+    // The other pointer may lead to the same place.
+    assert_eq!(stores(16, "%6 = load volatile float, ptr %3"), [0, 2, 0]);
+}
+
 /// Texts to start from.
 pub(super) fn seeds() -> Vec<String> {
     CONSTRUCTS.iter().map(|text| text.to_string()).chain([floats()]).collect()
