@@ -77,6 +77,9 @@ pub(crate) struct Session<'a> {
 impl<'a> Session<'a> {
     /// Finds compiler and packages.
     pub fn open(shaders: &'a Shaders, area: &Path) -> Result<Self, Error> {
+        if shaders.libdevice && shaders.codegen != Codegen::Nvvm {
+            return Err(Error::Libdevice);
+        }
         let (package, workspace) = shader_crate(&shaders.path)?;
         let backend = if shaders.codegen == Codegen::RustCuda { Some(Backend::find()?) } else { None };
         let compiler = backend.as_ref().map_or_else(DeviceCompiler::find, |backend| Ok(backend.compiler.clone()))?;

@@ -65,6 +65,8 @@ pub enum Error {
     /// No libNVVM on this machine does.
     #[cfg(feature = "nvvm")]
     NoNvvm(String),
+    /// libdevice was asked for, and the code generator is one that can't link it.
+    Libdevice,
     /// No `rustc_codegen_nvvm` on this machine does.
     NoRustCuda(String),
     /// libNVVM has failed.
@@ -123,6 +125,9 @@ impl fmt::Display for Error {
             Self::NoNvvm(reason) => {
                 write!(f, "no libNVVM ({reason}); run `cargo optix setup --nvvm`, or name one by OPTIX_NVVM")
             }
+            Self::Libdevice => f.write_str(
+                "only libNVVM links libdevice: choose it (`--codegen nvvm`, `Codegen::Nvvm`), or leave `libdevice` off",
+            ),
             Self::NoRustCuda(reason) => {
                 write!(f, "no code generator rustc_codegen_nvvm: {reason}; {}", crate::rust_cuda::INSTALL)
             }

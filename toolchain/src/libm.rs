@@ -19,11 +19,12 @@ pub(crate) const SOFTWARE: &str = "optix-libm-software";
 #[cfg(feature = "cli")]
 pub(crate) const OUT_OF_LINE: [&str; 1] = ["libm::sin_cos::reduce_large"];
 
-const SOURCES: [(&str, &str); 7] = [
+const SOURCES: [(&str, &str); 8] = [
     ("src/lib.rs", include_str!("../templates/libm/lib.rs")),
     ("src/exp.rs", include_str!("../templates/libm/exp.rs")),
     ("src/hyperbolic.rs", include_str!("../templates/libm/hyperbolic.rs")),
     ("src/inverse.rs", include_str!("../templates/libm/inverse.rs")),
+    ("src/libdevice.rs", include_str!("../templates/libm/libdevice.rs")),
     ("src/log.rs", include_str!("../templates/libm/log.rs")),
     ("src/root.rs", include_str!("../templates/libm/root.rs")),
     ("src/sin_cos.rs", include_str!("../templates/libm/sin_cos.rs")),

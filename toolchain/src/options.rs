@@ -46,6 +46,7 @@ pub struct Shaders {
     pub(crate) ftz: bool,
     pub(crate) prec_div: bool,
     pub(crate) prec_sqrt: bool,
+    pub(crate) libdevice: bool,
     pub(crate) line_info: bool,
     /// None: as the profile of the program that is built.
     pub(crate) checks: Option<bool>,
@@ -66,6 +67,7 @@ impl Shaders {
             ftz: false,
             prec_div: true,
             prec_sqrt: true,
+            libdevice: false,
             line_info: false,
             checks: None,
             features: Vec::new(),
@@ -107,6 +109,14 @@ impl Shaders {
     /// Whether the `f32` square root is correctly rounded, instead of within 1 ulp: nvcc's `-prec-sqrt`. Default: true.
     pub fn prec_sqrt(mut self, on: bool) -> Self {
         self.prec_sqrt = on;
+        self
+    }
+
+    /// Whether functions such as `sin` and `pow` are NVIDIA's, from the libdevice that comes with libNVVM, with CUDA's
+    /// results to the bit; [`Codegen::Nvvm`] alone links it. Default: false, the project's own, which are more exact and
+    /// the same with every code generator (docs/maths.md).
+    pub fn libdevice(mut self, on: bool) -> Self {
+        self.libdevice = on;
         self
     }
 
@@ -186,14 +196,15 @@ impl Shaders {
             llvm.push_str(" -nvptx-prec-sqrtf32=0");
         }
         // For our `libm`.
-        let approximate_sqrt = (!self.prec_sqrt).then(|| "--cfg=optix_approximate_sqrt".into());
+        let libm = [(!self.prec_sqrt, "--cfg=optix_approximate_sqrt"), (self.libdevice, "--cfg=optix_libdevice")];
+        let libm = libm.into_iter().filter_map(|(is_set, flag)| is_set.then(|| flag.to_string()));
         let flags = [
             format!("-Ctarget-cpu={}", self.arch),
             // An indirect branch costs a GPU more than a few comparisons.
             "-Cjump-tables=no".into(),
             format!("-Cllvm-args={llvm}"),
         ];
-        flags.into_iter().chain(approximate_sqrt).chain(PANIC.map(String::from)).collect()
+        flags.into_iter().chain(libm).chain(PANIC.map(String::from)).collect()
     }
 
     /// Tells builds apart whose intermediate files must not be mixed.

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use optix_toolchain::blame::Missing;
-use optix_toolchain::{Built, Error, Shaders, ptx};
+use optix_toolchain::{Built, Codegen, Error, Shaders, ptx};
 
 fn compile(shaders: &Path) -> Result<Built, Error> {
     Shaders::new(shaders).compile_in(common::area())
@@ -66,10 +66,28 @@ fn ptx_is_what_a_person_would_write() {
         assert!(rough.text.contains(op), "{op}");
     }
     assert!(
-        !rough.text.contains("sqrt.rn") && !rough.text.contains("rsqrt") && !rough.text.contains("fma.rn.f32"),
+        !rough.text.contains("sqrt.rn") && !rough.text.contains("0f5F800000") && !rough.text.contains("fma.rn.f32"),
         "nothing is left as it was"
     );
     assert!(!rough.text.contains("rcp.rn") && !rough.text.contains("div.rn"), "no exact division");
+}
+
+#[test]
+fn libdevice_takes_the_place_of_our_functions() {
+    if !common::can_compile("libdevice_takes_the_place_of_our_functions") {
+        return;
+    }
+    let dir = common::folder("libdevice");
+    let shaders = Shaders::new(common::shader_crate(&dir)).libdevice(true);
+    let error = shaders.compile_in(common::area()).expect_err("rustc links none");
+    assert!(error.to_string().contains("`--codegen nvvm`"), "{error}");
+
+    match shaders.codegen(Codegen::Nvvm).compile_in(common::area()) {
+        // Ours reduces large angles in a function.
+        Ok(built) => assert!(built.functions.is_empty() && !built.text.contains("reduce_large"), "{:?}", built.functions),
+        Err(Error::NoNvvm(reason)) => println!("libdevice: not tried, no libNVVM: {reason}"),
+        Err(error) => panic!("{error}"),
+    }
 }
 
 #[test]

@@ -26,6 +26,10 @@ pub(super) struct Options {
     /// Whether the `f32` square root is correctly rounded.
     #[arg(long, value_name = "BOOL", default_value_t = true, action = Set)]
     prec_sqrt: bool,
+    /// Take functions such as `sin` and `pow` from NVIDIA's libdevice, with CUDA's results to the bit, instead of the
+    /// project's own. With `--codegen nvvm`.
+    #[arg(long)]
+    libdevice: bool,
     /// Keep line information, which changes no instruction: nvcc's `-lineinfo`.
     #[arg(long)]
     debug: bool,
@@ -48,13 +52,13 @@ enum Generator {
 impl Options {
     /// The crate in `path`, to be compiled so.
     pub fn shaders(&self, path: &Path, arch: &str) -> Shaders {
-        let Self { path: _, codegen, fmad, ftz, prec_div, prec_sqrt, debug, checks } = *self;
+        let Self { path: _, codegen, fmad, ftz, prec_div, prec_sqrt, libdevice, debug, checks } = *self;
         let codegen = match codegen {
             Generator::Rustc => Codegen::Rustc,
             Generator::Nvvm => Codegen::Nvvm,
             Generator::RustCuda => Codegen::RustCuda,
         };
         let shaders = Shaders::new(path).arch(arch).codegen(codegen).line_info(debug).checks(checks);
-        shaders.fmad(fmad).ftz(ftz).prec_div(prec_div).prec_sqrt(prec_sqrt)
+        shaders.fmad(fmad).ftz(ftz).prec_div(prec_div).prec_sqrt(prec_sqrt).libdevice(libdevice)
     }
 }

@@ -5,25 +5,36 @@
 //! whether or not the compiler contracts the other operations.
 #![no_std]
 #![feature(core_float_math)]
-// `optix_approximate_sqrt` is a flag of the device build.
+// The device build's flags: `optix_approximate_sqrt` for `sqrt.approx`, `optix_libdevice` for NVIDIA's functions.
 #![allow(unexpected_cfgs, dead_code)]
 
 mod exp;
 mod hyperbolic;
 mod inverse;
+mod libdevice;
 mod log;
 mod root;
 mod sin_cos;
 
-pub use exp::{exp2f, exp10f, expf};
-pub use hyperbolic::{acosh, acoshf, coshf, sinhf, tanhf};
-pub use inverse::{acosf, asinf, atan2f, atanf};
-pub use log::{log2f, log10f, logf, powf};
+#[cfg(optix_libdevice)]
+pub use libdevice::{
+    acos, acosf, acosh, acoshf, asin, asinf, asinh, asinhf, atan, atan2, atan2f, atanf, atanh, atanhf, cbrt, cbrtf, cos,
+    cosf, cosh, coshf, erf, erfc, erfcf, erff, exp, exp2, exp2f, exp10, exp10f, expf, expm1, expm1f, fdim, fdimf, fmod,
+    fmodf, hypot, hypotf, lgamma, lgammaf, log, log1p, log1pf, log2, log2f, log10, log10f, logf, pow, powf, sin, sincos,
+    sincosf, sinf, sinh, sinhf, tan, tanf, tanh, tanhf, tgamma, tgammaf,
+};
 #[cfg(not(optix_approximate_sqrt))]
 pub use root::sqrt_rn as sqrtf;
-pub use root::{cbrtf, hypotf};
-pub use sin_cos::{cosf, sincosf, sinf, tanf};
 pub use software::*;
+#[cfg(not(optix_libdevice))]
+pub use {
+    exp::{exp2f, exp10f, expf},
+    hyperbolic::{acosh, acoshf, coshf, sinhf, tanhf},
+    inverse::{acosf, asinf, atan2f, atanf},
+    log::{log2f, log10f, logf, powf},
+    root::{cbrtf, hypotf},
+    sin_cos::{cosf, sincosf, sinf, tanf},
+};
 
 /// Functions of one float type that are instructions. Each is an item of its own, and so goes before the glob import.
 macro_rules! instructions {
