@@ -84,7 +84,9 @@ fn libdevice_takes_the_place_of_our_functions() {
 
     match shaders.codegen(Codegen::Nvvm).compile_in(common::area()) {
         // Ours reduces large angles in a function.
-        Ok(built) => assert!(built.functions.is_empty() && !built.text.contains("reduce_large"), "{:?}", built.functions),
+        Ok(built) => {
+            assert!(built.functions.is_empty() && !built.text.contains("reduce_large"), "{:?}", built.functions)
+        }
         Err(Error::NoNvvm(reason)) => println!("libdevice: not tried, no libNVVM: {reason}"),
         Err(error) => panic!("{error}"),
     }

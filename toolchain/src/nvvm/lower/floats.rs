@@ -2,8 +2,24 @@
 
 use super::builder::{Builder, constant, float};
 use super::libdevice;
-use crate::nvvm::model::{Type, Typed, Value};
+use crate::nvvm::model::{Op, Type, Typed, Value};
 use crate::nvvm::refusal::Unknown;
+
+/// Keeps libNVVM from what it fails at: it joins stores to a vector of eight halves, which it can't store, and has no conversion
+/// of a half to 128 bits.
+pub(super) fn avoid_halves(builder: &mut Builder<'_>, op: &mut Op) {
+    match op {
+        // It joins no more than are known to be aligned.
+        Op::Store { value, align: Some(align), .. } if value.ty == Type::Half => *align = (*align).min(8),
+        Op::Cast { op, value, to: Type::Int(65..) } if value.ty == Type::Half && op.starts_with("fpto") => {
+            // The greatest half is 65,504, and what does not fit is undefined.
+            let extend = if op == "fptosi" { "sext" } else { "zext" };
+            *value = builder.cast(op, value, &Type::Int(32));
+            *op = extend.into();
+        }
+        _ => {}
+    }
+}
 
 /// The number below one half, in either type: added before cutting off, it rounds to the nearest integer, ties away.
 const BELOW_HALF: (f64, f64) = (f32::from_bits(0x3eff_ffff) as f64, 0.499_999_999_999_999_94);

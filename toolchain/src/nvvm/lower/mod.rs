@@ -101,7 +101,8 @@ fn function(function: &mut Function, called: &mut Called, own: &HashSet<String>,
 }
 
 /// Appends what the instruction becomes.
-fn lower(builder: &mut Builder<'_>, instruction: Instruction) -> Result<(), Unknown> {
+fn lower(builder: &mut Builder<'_>, mut instruction: Instruction) -> Result<(), Unknown> {
+    floats::avoid_halves(builder, &mut instruction.op);
     let value = match &instruction.op {
         Op::Freeze { value } => freeze::lower(builder, value).map(Some),
         Op::Negate { value } => floats::negate(builder, value).map(Some),

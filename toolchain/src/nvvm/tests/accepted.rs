@@ -53,6 +53,31 @@ const CONSTRUCTS: &[&str] = &[
     declare half @llvm.sqrt.f16(half)
     declare half @llvm.floor.f16(half)
     declare half @llvm.maxnum.f16(half, half)",
+    // Halves that libNVVM fails at by itself.
+    "define void @eight_halves(ptr %0, half %1, half %2, half %3, half %4, half %5, half %6, half %7, half %8) {
+        store half %1, ptr %0, align 16
+        %p1 = getelementptr inbounds nuw i8, ptr %0, i64 2
+        store half %2, ptr %p1, align 2
+        %p2 = getelementptr inbounds nuw i8, ptr %0, i64 4
+        store half %3, ptr %p2, align 4
+        %p3 = getelementptr inbounds nuw i8, ptr %0, i64 6
+        store half %4, ptr %p3, align 2
+        %p4 = getelementptr inbounds nuw i8, ptr %0, i64 8
+        store half %5, ptr %p4, align 8
+        %p5 = getelementptr inbounds nuw i8, ptr %0, i64 10
+        store half %6, ptr %p5, align 2
+        %p6 = getelementptr inbounds nuw i8, ptr %0, i64 12
+        store half %7, ptr %p6, align 4
+        %p7 = getelementptr inbounds nuw i8, ptr %0, i64 14
+        store half %8, ptr %p7, align 2
+        ret void
+    }",
+    "define i128 @wide_of_half(half %0) {
+        %2 = fptosi half %0 to i128
+        %3 = fptoui half %0 to i128
+        %4 = add i128 %2, %3
+        ret i128 %4
+    }",
     // Memory: addresses, structs, arrays, named types, variables, copies.
     "%pair = type { i32, [3 x float], ptr }
     @table = private unnamed_addr constant [4 x i32] [i32 1, i32 2, i32 3, i32 4], align 4
