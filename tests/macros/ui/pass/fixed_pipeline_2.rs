@@ -154,6 +154,19 @@ mod pipeline_ray_unknown_in_group {
     }
 }
 
+mod pipeline_ray_with_bounds {
+    use crate::common::*;
+
+    pipeline! {
+        pub struct PathTracer {
+            params: Frame,
+            raygen: [camera],
+            rays: { Radiance { miss: sky }, Shadow { miss: lit } },
+            hitgroups: { Lambert on Triangles => { Radiance { closesthit: lambert }, Shadow {} } },
+        }
+    }
+}
+
 mod pipeline_raygen_twice {
     use crate::common::*;
 
