@@ -77,7 +77,7 @@ pub(crate) struct Session<'a> {
 impl<'a> Session<'a> {
     /// Finds compiler and packages.
     pub fn open(shaders: &'a Shaders, area: &Path) -> Result<Self, Error> {
-        if shaders.libdevice && shaders.codegen != Codegen::Nvvm {
+        if shaders.libdevice && !shaders.codegen.links_libdevice() {
             return Err(Error::Libdevice);
         }
         let (package, workspace) = shader_crate(&shaders.path)?;

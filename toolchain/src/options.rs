@@ -28,6 +28,16 @@ pub enum Codegen {
     RustCuda,
 }
 
+impl Codegen {
+    pub(crate) fn links_libdevice(self) -> bool {
+        match self {
+            #[cfg(feature = "nvvm")]
+            Self::Nvvm => true,
+            Self::Rustc | Self::RustCuda => false,
+        }
+    }
+}
+
 /// A shader crate and how to compile it; [`shaders`](crate::shaders) with options.
 ///
 /// The defaults are nvcc's: multiplications and additions contract to `fma`, division and square root are correctly
