@@ -95,7 +95,11 @@ one_word! {
     u32: |v| v, |w| w;
     i32: |v| v.cast_unsigned(), |w| w.cast_signed();
     f32: |v| v.to_bits(), |w| f32::from_bits(w);
-    bool: |v| u32::from(v), |w| w != 0;
+    bool: |v| u32::from(v), |w| {
+        // SAFETY: a `bool` was stored. So a sum of them needs no comparison.
+        unsafe { core::hint::assert_unchecked(w <= 1) };
+        w == 1
+    };
     u16: |v| u32::from(v), |w| w as u16;
     u8: |v| u32::from(v), |w| w as u8;
     i16: |v| v as u32, |w| w as i16;
