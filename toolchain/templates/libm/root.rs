@@ -10,11 +10,13 @@ pub fn sqrt_rn(x: f32) -> f32 {
     let is_small = x < 3.944_304_5e-31;
     let scaled = if is_small { x * 1.844_674_4e19 } else { x };
     let r = approximate_rsqrt(scaled);
+    let half = 0.5 * r;
     let root = scaled * r;
     let rest = fmaf(-root, root, scaled);
-    let root = fmaf(rest, 0.5 * r, root);
+    let root = fmaf(rest, half, root);
     let root = if is_small { root * 2.328_306_4e-10 } else { root };
-    if (scaled == 0.0) | (scaled == f32::INFINITY) { scaled } else { root }
+    // Infinite for 0, and 0 for infinity.
+    if r == half { scaled } else { root }
 }
 
 /// 1/sqrt(x) within 2^-22.9 of it, subnormal numbers taken for 0.
