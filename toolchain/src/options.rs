@@ -207,7 +207,7 @@ impl Shaders {
         }
         // For our `libm`.
         let libm = [(!self.prec_sqrt, "--cfg=optix_approximate_sqrt"), (self.libdevice, "--cfg=optix_libdevice")];
-        let libm = libm.into_iter().filter_map(|(is_set, flag)| is_set.then(|| flag.to_string()));
+        let libm = libm.into_iter().filter(|(is_set, _)| *is_set).map(|(_, flag)| flag.to_string());
         let flags = [
             format!("-Ctarget-cpu={}", self.arch),
             // An indirect branch costs a GPU more than a few comparisons.
