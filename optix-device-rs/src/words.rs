@@ -170,8 +170,12 @@ impl<T: Words, const N: usize> Words for [T; N] {
     const COUNT: usize = T::COUNT * N;
     #[inline(always)]
     fn store(self, words: &mut [u32]) {
-        for (i, value) in self.into_iter().enumerate() {
-            value.store(part_mut(words, i * T::COUNT, (i + 1) * T::COUNT));
+        // `enumerate` and `+` check for overflow where that is asked for, and the array stays in memory then.
+        let mut at = 0_usize;
+        for value in self {
+            let end = at.wrapping_add(T::COUNT);
+            value.store(part_mut(words, at, end));
+            at = end;
         }
     }
     #[inline(always)]

@@ -212,6 +212,8 @@ impl Shaders {
             format!("-Ctarget-cpu={}", self.arch),
             // An indirect branch costs a GPU more than a few comparisons.
             "-Cjump-tables=no".into(),
+            // `core`'s checks of what `unsafe` code promises, which `debug-assertions` would switch on, keep payloads in memory.
+            "-Zub-checks=no".into(),
             format!("-Cllvm-args={llvm}"),
         ];
         flags.into_iter().chain(libm).chain(PANIC.map(String::from)).collect()

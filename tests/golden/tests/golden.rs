@@ -7,7 +7,7 @@ use optix_ptx::Module;
 use optix_toolchain::{Built, DeviceCompiler, Shaders};
 use std::fmt::Write;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The programs, by the last part of the raw entry's name.
 const PROGRAMS: [&str; 12] = [
@@ -38,12 +38,16 @@ fn compiled(test: &str) -> Option<(DeviceCompiler, Built, Built)> {
             return None;
         }
     };
-    let area = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("optix");
-    let compile = |name: &str| {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
-        Shaders::new(path).compile_in(&area).expect("it compiles")
-    };
+    let compile = |name: &str| shaders(name).compile_in(area()).expect("it compiles");
     Some((compiler, compile("typed"), compile("raw")))
+}
+
+fn shaders(name: &str) -> Shaders {
+    Shaders::new(Path::new(env!("CARGO_MANIFEST_DIR")).join(name))
+}
+
+fn area() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("optix")
 }
 
 fn typed(built: &Built, program: &str) -> Vec<String> {
@@ -87,6 +91,15 @@ fn typed_programs_are_what_one_would_write_by_hand() {
         }
     }
     assert!(differences.is_empty(), "typed programs differ from their twins:\n{differences}");
+}
+
+#[test]
+fn typed_programs_stay_in_registers_where_overflow_is_checked() {
+    if compiled("typed_programs_stay_in_registers_where_overflow_is_checked").is_none() {
+        return;
+    }
+    let built = shaders("typed").checks(true).compile_in(area()).expect("it compiles");
+    assert!(!built.text.contains(".local"), "{}", built.ptx.display());
 }
 
 #[test]
