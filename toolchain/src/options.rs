@@ -221,8 +221,9 @@ impl Shaders {
 
     /// Tells builds apart whose intermediate files must not be mixed.
     pub(crate) fn key(&self, dir: &Path) -> String {
-        let switches = [self.fmad, self.ftz, self.prec_div, self.prec_sqrt, self.line_info, self.default_features];
-        let switches = format!("{switches:?}{:?}{:?}", self.checks, self.codegen);
+        let maths = [self.fmad, self.ftz, self.prec_div, self.prec_sqrt, self.libdevice];
+        let switches = [self.line_info, self.default_features];
+        let switches = format!("{maths:?}{switches:?}{:?}{:?}", self.checks, self.codegen);
         let dir = dir.to_string_lossy();
         let parts = [dir.as_ref(), self.arch.as_str(), switches.as_str()];
         util::hash(parts.into_iter().chain(self.features.iter().map(String::as_str)))

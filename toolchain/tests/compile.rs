@@ -82,10 +82,17 @@ fn libdevice_takes_the_place_of_our_functions() {
     let error = shaders.compile_in(common::area()).expect_err("rustc links none");
     assert!(error.to_string().contains("`--codegen nvvm`"), "{error}");
 
-    match shaders.codegen(Codegen::Nvvm).compile_in(common::area()) {
-        // Ours reduces large angles in a function.
+    let shaders = shaders.codegen(Codegen::Nvvm);
+    let with = |on| shaders.clone().libdevice(on).compile_in(common::area());
+    match with(true) {
         Ok(built) => {
-            assert!(built.functions.is_empty() && !built.text.contains("reduce_large"), "{:?}", built.functions)
+            // Ours reduces large angles in a function.
+            assert!(built.functions.is_empty() && !built.text.contains("reduce_large"), "{:?}", built.functions);
+            // Neither takes the other's files.
+            let ours = with(false).expect("it compiles").text;
+            assert!(ours.contains("reduce_large"));
+            assert_eq!(with(true).expect("it compiles").text, built.text);
+            assert_eq!(with(false).expect("it compiles").text, ours);
         }
         Err(Error::NoNvvm(reason)) => println!("libdevice: not tried, no libNVVM: {reason}"),
         Err(error) => panic!("{error}"),
