@@ -24,7 +24,7 @@ use crate::data::DeviceData;
 use crate::machine::check;
 use crate::program::{Context, Here, InstanceHandle};
 use crate::view::Slice;
-use crate::words::words_of_raw;
+use crate::words::{FromRaw, words_of_raw};
 use glam::Vec3;
 
 /// The instances of an IAS, in the order in which the application gave them.
@@ -48,17 +48,29 @@ pub struct TriangleVertices {
     counts: Slice<u32>,
 }
 
-impl Instances {
-    /// From a machine's handle; for backends.
-    ///
-    /// # Safety
-    /// The handle is of an IAS with `len` instances, built with random instance access on the machine that launches, and
-    /// stays alive while programs may use the view.
-    #[doc(hidden)]
-    pub const unsafe fn from_raw(ias: u64, len: u64) -> Self {
+/// # Safety
+/// The handle is of an IAS with so many instances, built with random instance access on the machine that launches, and stays
+/// alive while programs may use the view.
+impl FromRaw for Instances {
+    type Raw = [u64; 2];
+    #[inline(always)]
+    unsafe fn from_raw([ias, len]: [u64; 2]) -> Self {
         Self { ias, len }
     }
+}
 
+/// # Safety
+/// The handle is of a GAS of triangles, built with random vertex access on the machine that launches, and stays alive while
+/// programs may use the view; it has as many records as `counts`, each of a build input with so many triangles.
+impl FromRaw for TriangleVertices {
+    type Raw = (u64, Slice<u32>);
+    #[inline(always)]
+    unsafe fn from_raw((gas, counts): (u64, Slice<u32>)) -> Self {
+        Self { gas, counts }
+    }
+}
+
+impl Instances {
     #[doc(hidden)]
     pub const fn to_raw(self) -> [u64; 2] {
         [self.ias, self.len]
@@ -84,16 +96,6 @@ impl Instances {
 }
 
 impl TriangleVertices {
-    /// From a machine's handle; for backends.
-    ///
-    /// # Safety
-    /// The handle is of a GAS of triangles, built with random vertex access on the machine that launches, and stays alive while
-    /// programs may use the view; it has as many records as `counts`, each of a build input with so many triangles.
-    #[doc(hidden)]
-    pub const unsafe fn from_raw(gas: u64, counts: Slice<u32>) -> Self {
-        Self { gas, counts }
-    }
-
     #[doc(hidden)]
     pub const fn to_raw(self) -> [u64; 3] {
         let [address, len] = self.counts.to_raw();
@@ -127,8 +129,8 @@ impl TriangleVertices {
 }
 
 words_of_raw! {
-    [] Instances: [u64; 2], |raw| Self::from_raw(raw[0], raw[1]);
-    [] TriangleVertices: [u64; 3], |raw| Self::from_raw(raw[0], Slice::from_raw(raw[1], raw[2]));
+    [] Instances: [u64; 2], |raw| Self::from_raw(raw);
+    [] TriangleVertices: [u64; 3], |raw| Self::from_raw((raw[0], Slice::from_raw([raw[1], raw[2]])));
 }
 
 macro_rules! device_data {

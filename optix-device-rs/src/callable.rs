@@ -25,7 +25,7 @@
 //! ```
 
 use crate::data::DeviceData;
-use crate::words::{Words, words_of_raw};
+use crate::words::{FromRaw, Words, words_of_raw};
 use core::marker::PhantomData;
 
 /// A kind of callable: [`Direct`] or [`Continuation`].
@@ -136,7 +136,7 @@ impl<F: 'static, K: 'static> Words for Callable<F, K> {
 }
 
 words_of_raw! {
-    [F: 'static, K: 'static] Callables<F, K>: [u32; 2], |raw| Self::from_raw(raw[0], raw[1]);
+    [F: 'static, K: 'static] Callables<F, K>: [u32; 2], |raw| Self::from_raw(raw);
 }
 
 impl<F, K> core::fmt::Debug for Callable<F, K> {
@@ -151,17 +151,27 @@ impl<F, K> core::fmt::Debug for Callables<F, K> {
     }
 }
 
-impl<F, K> Callable<F, K> {
-    /// By its index in the callables section; for backends.
-    ///
-    /// # Safety
-    /// In the tables of the launches that get it, the record is there, of a program with signature `F` and kind `K`.
-    #[doc(hidden)]
+/// # Safety
+/// In the tables of the launches that get it, the record of this index is there, of a program with signature `F` and kind `K`.
+impl<F, K> FromRaw for Callable<F, K> {
+    type Raw = u32;
     #[inline(always)]
-    pub const unsafe fn from_raw(index: u32) -> Self {
+    unsafe fn from_raw(index: u32) -> Self {
         Self { index, types: PhantomData }
     }
+}
 
+/// # Safety
+/// As for [`Callable`], each of the `len` records from `first` on.
+impl<F, K> FromRaw for Callables<F, K> {
+    type Raw = [u32; 2];
+    #[inline(always)]
+    unsafe fn from_raw([first, len]: [u32; 2]) -> Self {
+        Self { first, len, types: PhantomData }
+    }
+}
+
+impl<F, K> Callable<F, K> {
     #[doc(hidden)]
     #[inline(always)]
     pub const fn to_raw(self) -> u32 {
@@ -170,16 +180,6 @@ impl<F, K> Callable<F, K> {
 }
 
 impl<F, K> Callables<F, K> {
-    /// By the indices `first..first + len` of the callables section; for backends.
-    ///
-    /// # Safety
-    /// As for [`Callable::from_raw`], each of them.
-    #[doc(hidden)]
-    #[inline(always)]
-    pub const unsafe fn from_raw(first: u32, len: u32) -> Self {
-        Self { first, len, types: PhantomData }
-    }
-
     #[doc(hidden)]
     #[inline(always)]
     pub const fn to_raw(self) -> [u32; 2] {

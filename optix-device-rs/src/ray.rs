@@ -1,6 +1,6 @@
 //! Rays and what they are traced against (guide 13.2).
 
-use crate::words::Words;
+use crate::words::{FromRaw, Words};
 use glam::Vec3;
 
 /// A traversable: what a ray is traced against (an acceleration structure of the scene).
@@ -18,13 +18,14 @@ impl Traversable {
     pub const fn to_raw(self) -> u64 {
         self.0
     }
+}
 
-    /// From a machine's handle; for backends.
-    ///
-    /// # Safety
-    /// The handle is alive, on the machine that launches, for as long as programs may trace against it.
-    #[doc(hidden)]
-    pub const unsafe fn from_raw(handle: u64) -> Self {
+/// # Safety
+/// The handle is alive, on the machine that launches, for as long as programs may trace against it.
+impl FromRaw for Traversable {
+    type Raw = u64;
+    #[inline(always)]
+    unsafe fn from_raw(handle: u64) -> Self {
         Self(handle)
     }
 }

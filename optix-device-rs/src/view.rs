@@ -20,7 +20,7 @@
 //!   with debug assertions, so the profile decides.
 
 use crate::data::DeviceData;
-use crate::words::words_of_raw;
+use crate::words::{FromRaw, words_of_raw};
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 use core::sync::atomic::{AtomicU8, AtomicU32, Ordering::Relaxed};
@@ -152,20 +152,21 @@ macro_rules! linear_view {
         // SAFETY: as above.
         unsafe impl<T: Send + Sync> Sync for $name<T> {}
 
-        impl<T: Element> $name<T> {
-            /// No elements.
-            pub const EMPTY: Self = Self { address: 0, len: 0, zero: 0, elements: PhantomData };
-
-            /// From an address; for backends.
-            ///
-            /// # Safety
-            /// `len` elements at `address`, aligned for `T`, stay valid on the launching machine while programs may use
-            /// the view.
-            #[doc(hidden)]
-            pub const unsafe fn from_raw(address: u64, len: u64) -> Self {
+        /// # Safety
+        /// `len` elements at `address`, aligned for `T`, stay valid on the launching machine while programs may use
+        /// the view.
+        impl<T: Element> FromRaw for $name<T> {
+            type Raw = [u64; 2];
+            #[inline(always)]
+            unsafe fn from_raw([address, len]: [u64; 2]) -> Self {
                 let len = if len > u32::MAX as u64 { u32::MAX } else { len as u32 };
                 Self { address, len, zero: 0, elements: PhantomData }
             }
+        }
+
+        impl<T: Element> $name<T> {
+            /// No elements.
+            pub const EMPTY: Self = Self { address: 0, len: 0, zero: 0, elements: PhantomData };
 
             #[doc(hidden)]
             pub const fn to_raw(self) -> [u64; 2] {
@@ -275,17 +276,18 @@ unsafe impl<T: Send> Send for SliceMut2d<T> {}
 // SAFETY: as above.
 unsafe impl<T: Send + Sync> Sync for SliceMut2d<T> {}
 
-impl<T: Element> SliceMut2d<T> {
-    /// From an address; for backends.
-    ///
-    /// # Safety
-    /// `width * height` elements at `address`, aligned for `T`, stay valid on the launching machine while programs may
-    /// use the view.
-    #[doc(hidden)]
-    pub const unsafe fn from_raw(address: u64, width: u32, height: u32) -> Self {
+/// # Safety
+/// `width * height` elements at `address`, aligned for `T`, stay valid on the launching machine while programs may use the
+/// view.
+impl<T: Element> FromRaw for SliceMut2d<T> {
+    type Raw = (u64, [u32; 2]);
+    #[inline(always)]
+    unsafe fn from_raw((address, [width, height]): (u64, [u32; 2])) -> Self {
         Self { address, width, height, elements: PhantomData }
     }
+}
 
+impl<T: Element> SliceMut2d<T> {
     #[doc(hidden)]
     pub const fn to_raw(self) -> [u64; 2] {
         [self.address, self.width as u64 | (self.height as u64) << 32]
@@ -323,7 +325,7 @@ impl<T: Element> SliceMut2d<T> {
 }
 
 words_of_raw! {
-    [T: Element] Slice<T>: [u64; 2], |raw| Self::from_raw(raw[0], raw[1]);
-    [T: Element] SliceMut<T>: [u64; 2], |raw| Self::from_raw(raw[0], raw[1]);
-    [T: Element] SliceMut2d<T>: [u64; 2], |raw| Self::from_raw(raw[0], raw[1] as u32, (raw[1] >> 32) as u32);
+    [T: Element] Slice<T>: [u64; 2], |raw| Self::from_raw(raw);
+    [T: Element] SliceMut<T>: [u64; 2], |raw| Self::from_raw(raw);
+    [T: Element] SliceMut2d<T>: [u64; 2], |raw| Self::from_raw((raw[0], [raw[1] as u32, (raw[1] >> 32) as u32]));
 }

@@ -136,6 +136,18 @@ two_words! {
     [T: 'static] *mut T: |v| v.expose_provenance() as u64, |w| core::ptr::with_exposed_provenance_mut(w as usize);
 }
 
+/// What views and handles are made of. A trait of this crate, and no function of each type: rustc offers such a function, even
+/// a private one, to whoever tries to make a view by hand.
+pub(crate) trait FromRaw {
+    /// Addresses, lengths, indices.
+    type Raw;
+    /// A view of what is there.
+    ///
+    /// # Safety
+    /// As said at the type's implementation.
+    unsafe fn from_raw(raw: Self::Raw) -> Self;
+}
+
 /// Types that travel as the array of integers that their `to_raw` gives, and come back by a constructor for the stored ones.
 macro_rules! words_of_raw {
     ($([$($generics:tt)*] $ty:ty: $raw_ty:ty, |$raw:ident| $from:expr;)*) => {$(

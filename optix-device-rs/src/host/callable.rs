@@ -2,6 +2,7 @@
 
 use super::{DeviceId, KeepAlive, View};
 use crate::callable::{Callable, CallableKind, Callables, Signature};
+use crate::words::FromRaw;
 use core::marker::PhantomData;
 use std::any::Any;
 use std::sync::Arc;
@@ -109,6 +110,6 @@ impl<F: Signature, K: CallableKind> View for Callables<F, K> {
     fn of(owner: &CallableTable<F, K>, keep: &mut KeepAlive) -> Self {
         owner.range.keep(keep);
         // SAFETY: `CallableTable::new`; launches refuse what another scene's table has.
-        unsafe { Self::from_raw(owner.range.first, owner.range.len) }
+        unsafe { Self::from_raw([owner.range.first, owner.range.len]) }
     }
 }

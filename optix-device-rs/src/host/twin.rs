@@ -5,6 +5,7 @@ use crate::accel::{Instances, TriangleVertices};
 use crate::data::DeviceData;
 use crate::ray::Traversable;
 use crate::view::{Element, Slice, SliceMut, SliceMut2d};
+use crate::words::FromRaw;
 use std::any::Any;
 use std::sync::Arc;
 use std::vec::Vec;
@@ -90,7 +91,7 @@ impl<T: Element> View for Slice<T> {
     fn of(owner: &Buffer<T>, keep: &mut KeepAlive) -> Self {
         keep.memory(&owner.memory);
         // SAFETY: the buffer has `len` aligned elements (`from_memory`), and `keep` holds it.
-        unsafe { Self::from_raw(owner.memory.address(), owner.len as u64) }
+        unsafe { Self::from_raw([owner.memory.address(), owner.len as u64]) }
     }
 }
 
@@ -99,7 +100,7 @@ impl<T: Element> View for SliceMut<T> {
     fn of(owner: &Buffer<T>, keep: &mut KeepAlive) -> Self {
         keep.memory(&owner.memory);
         // SAFETY: as for `Slice`.
-        unsafe { Self::from_raw(owner.memory.address(), owner.len as u64) }
+        unsafe { Self::from_raw([owner.memory.address(), owner.len as u64]) }
     }
 }
 
@@ -109,7 +110,7 @@ impl<T: Element> View for SliceMut2d<T> {
         keep.memory(&owner.buffer.memory);
         let [width, height] = owner.size;
         // SAFETY: the buffer has `width * height` aligned elements (`Buffer2d::new`), and `keep` holds it.
-        unsafe { Self::from_raw(owner.buffer.memory.address(), width, height) }
+        unsafe { Self::from_raw((owner.buffer.memory.address(), [width, height])) }
     }
 }
 
@@ -125,7 +126,7 @@ impl View for Instances {
     type Owner = InstanceTable;
     fn of(owner: &InstanceTable, keep: &mut KeepAlive) -> Self {
         // SAFETY: as for `Traversable`; and `InstanceTable::new`.
-        unsafe { Self::from_raw(keep.structure(&owner.ias), owner.len.into()) }
+        unsafe { Self::from_raw([keep.structure(&owner.ias), owner.len.into()]) }
     }
 }
 
@@ -134,6 +135,6 @@ impl View for TriangleVertices {
     fn of(owner: &TriangleTable, keep: &mut KeepAlive) -> Self {
         let counts = View::of(&owner.counts, keep);
         // SAFETY: as for `Traversable`; and `TriangleTable::new`.
-        unsafe { Self::from_raw(keep.structure(&owner.gas), counts) }
+        unsafe { Self::from_raw((keep.structure(&owner.gas), counts)) }
     }
 }
