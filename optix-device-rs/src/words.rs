@@ -51,7 +51,8 @@ pub trait Words: Copy + 'static {
     /// Reads the value back from `words`, which are `COUNT` long.
     ///
     /// # Safety
-    /// [`Words::store`] of the same type wrote the words: any others could forge a view of memory that is not there.
+    /// [`Words::store`] of the same type wrote the words: any others could forge a view of memory that is not there. Or all are
+    /// zero, which is a value of every type: what comes back from a trace call that runs no program.
     unsafe fn load(words: &[u32]) -> Self;
 }
 

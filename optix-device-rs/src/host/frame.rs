@@ -115,8 +115,6 @@ pub trait Executor {
     fn trace(&self, call: &TraceCall, payload: &mut WordBuffer);
     /// Calls a callable; `words` are its arguments, then its result.
     fn call(&self, call: &CallableCall, words: &mut WordBuffer);
-    /// Ends the launch index, after the exception program, by unwinding: nothing may hold what must be put back.
-    fn throw(&self, exception: ExceptionState) -> !;
     /// Reports a hit from an intersection program; true if it was accepted.
     fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool;
     /// The end of the ray's interval as an intersection program sees it (guide 13.5): changes while it reports.

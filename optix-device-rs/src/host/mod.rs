@@ -3,6 +3,7 @@
 
 mod callable;
 mod description;
+pub mod end;
 mod frame;
 mod memory;
 mod twin;

@@ -3,6 +3,7 @@
 use super::TraceCall;
 use crate::callable::Signature;
 use crate::exception::MAX_DETAILS;
+use crate::host::end::{self, End};
 use crate::host::{CallableCall, ExceptionState, Frame};
 use crate::params::LaunchParams;
 use crate::words::{MAX_PAYLOAD_WORDS, WordBuffer, Words, part, part_mut};
@@ -15,6 +16,7 @@ use core::panic::Location;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec2, Vec3};
 use std::ffi::CString;
+use std::string::ToString;
 
 /// The running program's frame.
 #[derive(Clone, Copy)]
@@ -73,11 +75,11 @@ fn each_word(payload: &Cell<WordBuffer>) -> &[Cell<u32>; MAX_PAYLOAD_WORDS] {
 pub fn check(index: u32, len: u32, message: core::fmt::Arguments<'_>) {
     #[cold]
     #[inline(never)]
-    fn end(message: core::fmt::Arguments<'_>) -> ! {
-        panic!("{message}")
+    fn out_of_range(message: core::fmt::Arguments<'_>) -> ! {
+        end::end(End::Failed(message.to_string()))
     }
     if index >= len {
-        end(message);
+        out_of_range(message);
     }
 }
 
@@ -142,8 +144,13 @@ impl Cx {
     }
     #[inline(always)]
     pub fn trace(&self, call: &TraceCall, mut payload: WordBuffer) -> WordBuffer {
-        self.frame().executor.trace(call, &mut payload);
-        payload
+        // What comes back where no program ran is a value of every type.
+        if end::goes_on() {
+            self.frame().executor.trace(call, &mut payload);
+            payload
+        } else {
+            WordBuffer::ZERO
+        }
     }
     #[inline(always)]
     pub fn set_payload_type(&self, _: u32) {}
@@ -327,15 +334,20 @@ impl Cx {
     }
     #[inline(always)]
     pub fn report(&self, t: f32, kind: u32, count: usize, attributes: &WordBuffer) -> bool {
-        self.frame().executor.report(t, kind as u8, count, attributes)
+        end::goes_on() && self.frame().executor.report(t, kind as u8, count, attributes)
     }
 
     fn call<F: Signature>(&self, continuation: bool, index: u32, arguments: F::Arguments) -> F::Result {
         let mut words = WordBuffer::ZERO;
         arguments.store(part_mut(&mut words.0, 0, F::Arguments::COUNT));
         let call = CallableCall { index, continuation, signature: TypeId::of::<F>() };
-        self.frame().executor.call(&call, &mut words);
-        // SAFETY: the executor compares the signatures, and the callable's entry stored what it returned (`entry::result`).
+        if end::goes_on() {
+            self.frame().executor.call(&call, &mut words);
+        } else {
+            words = WordBuffer::ZERO;
+        }
+        // SAFETY: the executor compares the signatures, and the callable's entry stored what it returned (`entry::result`);
+        // where none ran, they are zeros.
         unsafe { F::Result::load(part(&words.0, 0, F::Result::COUNT)) }
     }
     /// # Safety
@@ -354,7 +366,7 @@ impl Cx {
     pub fn throw<const CODE: u32>(&self, _count: usize, details: &[u32; MAX_DETAILS]) -> ! {
         let at = Location::caller();
         let line = CString::new(std::format!("{}:{}", at.file(), at.line())).ok();
-        self.frame().executor.throw(ExceptionState { code: CODE.cast_signed(), details: *details, line })
+        end::end(End::Thrown(ExceptionState { code: CODE.cast_signed(), details: *details, line }))
     }
     #[inline(always)]
     pub fn exception_code(&self) -> i32 {

@@ -82,6 +82,12 @@ impl<const WORDS: usize> Transport for Pointer<WORDS> {
         let mut registers = WordBuffer::ZERO;
         memory.store(part_mut(&mut registers.0, 0, 2));
         cx.trace(call, registers);
+        #[cfg(not(target_arch = "nvptx64"))]
+        if !crate::host::end::goes_on() {
+            // No program ran: zeros, as in registers.
+            // SAFETY: the memory is this function's, and nobody else refers to it.
+            unsafe { (*memory).0.fill(0) };
+        }
         // SAFETY: the memory is this function's, and no program of the ray runs any more. As to the words, the payload's flow
         // was proved (`Payload`), and the programs of a ray are its own.
         unsafe { At::load(&(*memory).0) }

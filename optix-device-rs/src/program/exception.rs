@@ -28,6 +28,10 @@ macro_rules! may_throw {
             /// Ends this launch index with an exception: nothing of it runs any more but the pipeline's exception program.
             ///
             /// The pipeline says what its programs may throw: `throws: Fault`.
+            ///
+            /// On the CPU that is done by unwinding. A program that catches it (`catch_unwind`) takes nothing back: the index
+            /// ends at its next trace call, call, report or throw, or when it returns. Destructors run; what they trace or call
+            /// runs no program and gives zeros, and one that throws or panics ends the process, as it does whenever Rust unwinds.
             #[inline(always)]
             #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
             pub fn throw<E: ThrownBy<P>>(&self, exception: E) -> ! {

@@ -1,7 +1,6 @@
 //! Program calls and trace calls.
 
 use super::checks::{self, Watch};
-use super::exceptions::throw;
 use super::handle::{self, rows};
 use super::stack::StackEnd;
 use super::traversal::{AtHit, Traversal};
@@ -12,6 +11,7 @@ use core::cell::Cell;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec3};
 use optix_device_rs::exception::TRACE_DEPTH_EXCEEDED;
+use optix_device_rs::host::end::{End, end, goes_on};
 use optix_device_rs::host::{
     CallableCall, Entry, ExceptionState, Executor, Frame, HitState, InstanceState, PayloadWatch, TraceCall,
 };
@@ -68,9 +68,9 @@ impl<'c> Call<'c> {
     /// Ends the launch index unless there is stack for another program.
     fn check_stack(&self) {
         #[cold]
-        fn end(job: &Job<'_>) -> ! {
+        fn overflow(job: &Job<'_>) -> ! {
             if job.exceptions.stack_overflow {
-                throw(ExceptionState::STACK_OVERFLOW);
+                end(End::Thrown(ExceptionState::STACK_OVERFLOW));
             }
             trap(
                 "programs call each other so deep that the stack of the CPU's thread is used up: lower `trace_depth` or \
@@ -80,7 +80,7 @@ impl<'c> Call<'c> {
             )
         }
         if self.stack.is_reached() {
-            end(self.job);
+            overflow(self.job);
         }
     }
 
@@ -147,6 +147,8 @@ impl<'c> Call<'c> {
         // SAFETY: the parameters were lowered from `P::Params` of the pipeline that the entry belongs to, and the section's
         // record from the record type that `pipeline!` tied to the program; both are aligned to 16 and outlive the call.
         let decision = unsafe { (entry.run)(&frame) };
+        // Of a program that caught what ended the launch index.
+        goes_on();
         self.running.set(caller);
         decision
     }
@@ -157,7 +159,7 @@ impl<'c> Call<'c> {
         let depth = self.depth + 1;
         if depth > job.depths.trace {
             if job.exceptions.trace_depth {
-                throw(ExceptionState { code: TRACE_DEPTH_EXCEEDED, ..ExceptionState::NONE });
+                end(End::Thrown(ExceptionState { code: TRACE_DEPTH_EXCEEDED, ..ExceptionState::NONE }));
             }
             trap(format!(
                 "trace calls nest deeper than the pipeline's trace depth of {} (guide 12, G013)",
@@ -252,9 +254,6 @@ impl Executor for Call<'_> {
     }
     fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
         Call::call(self, call, words);
-    }
-    fn throw(&self, exception: ExceptionState) -> ! {
-        throw(exception)
     }
     fn report(&self, _: f32, _: u8, _: usize, _: &WordBuffer) -> bool {
         trap("only an intersection program reports hits".into())

@@ -1,24 +1,13 @@
-//! Exceptions (guide 13.14): thrown by unwinding out of all programs of a launch index, and what is said of those that no
-//! exception program is told of.
+//! Exceptions (guide 13.14): what is said of those that no exception program is told of.
 
 use super::Job;
 use glam::UVec3;
 use optix_device_rs::exception::TRACE_DEPTH_EXCEEDED;
 use optix_device_rs::host::ExceptionState;
-use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
 
 /// As many as OptiX prints.
 const REPORTED: usize = 5;
-
-/// What unwinds.
-pub(super) struct Thrown(pub ExceptionState);
-
-/// Ends the launch index with an exception. No panic hook runs.
-#[cold]
-pub(super) fn throw(exception: ExceptionState) -> ! {
-    resume_unwind(Box::new(Thrown(exception)))
-}
 
 /// The first exceptions of a launch, by launch index, that no program was told of.
 #[derive(Default)]

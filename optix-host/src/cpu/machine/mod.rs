@@ -23,11 +23,11 @@ use crate::sbt::ShaderBindingTable;
 use crate::{Error, Result};
 use call::Call;
 use core::cell::Cell;
-use exceptions::{Thrown, Unhandled};
+use exceptions::Unhandled;
 use glam::UVec3;
+use optix_device_rs::host::end::{self, End};
 use optix_device_rs::host::{HitPrograms, PipelineDescription, RayDescription};
 use rayon::prelude::*;
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -129,39 +129,38 @@ fn run_all(job: &Job<'_>) -> Result<()> {
     }
 }
 
-/// What ends a launch index: carried by unwinding out of the programs.
-struct Trap(String);
-
 /// Ends the launch index; the message names the rule that the running program broke.
 #[cold]
 fn trap(what: String) -> ! {
-    resume_unwind(Box::new(Trap(what)))
+    end::end(End::Failed(what))
 }
 
 fn run_index(job: &Job<'_>, index: UVec3) -> Result<()> {
     let running = Cell::new(job.description.raygen[job.raygen].entry.name);
-    let raygen = catch_unwind(AssertUnwindSafe(|| Call::raygen(job, index, &running)));
-    let panic = match raygen.map_err(|panic| panic.downcast::<Thrown>()) {
-        Ok(()) => return Ok(()),
-        Err(Ok(thrown)) => {
+    // SAFETY: this is the executor; nothing of the index runs after an end but its exception program, which is told of it.
+    let ended = unsafe { end::catch(|| Call::raygen(job, index, &running)) };
+    let ended = match ended {
+        Err(End::Thrown(exception)) => {
             let thrower = running.get();
-            match catch_unwind(AssertUnwindSafe(|| Call::exception(job, index, &running, &thrown.0))) {
-                Ok(true) => return Ok(()),
+            // SAFETY: as above, and nothing at all runs after this.
+            match unsafe { end::catch(|| Call::exception(job, index, &running, &exception)) } {
+                Ok(true) => Ok(()),
                 Ok(false) => {
-                    job.unhandled.add(job, index, thrower, &thrown.0);
-                    return Ok(());
+                    job.unhandled.add(job, index, thrower, &exception);
+                    Ok(())
                 }
-                Err(panic) => panic,
+                Err(end) => Err(end),
             }
         }
-        Err(Err(panic)) => panic,
+        ended => ended,
     };
-    let what = if let Some(Trap(what)) = panic.downcast_ref() {
-        what.clone()
-    } else if let Some(what) = panic.downcast_ref::<String>() {
-        what.clone()
-    } else {
-        panic.downcast_ref::<&str>().map_or("it panicked".into(), |what| what.to_string())
-    };
-    Err(Error::Program { program: running.get().into(), index: index.to_array(), what })
+    match ended {
+        Ok(()) => Ok(()),
+        Err(End::Failed(what)) => Err(Error::Program { program: running.get().into(), index: index.to_array(), what }),
+        // It has no way to throw.
+        Err(End::Thrown(exception)) => {
+            job.unhandled.add(job, index, running.get(), &exception);
+            Ok(())
+        }
+    }
 }

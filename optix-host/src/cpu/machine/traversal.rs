@@ -6,7 +6,7 @@ use super::handle::{self, rows};
 use crate::cpu::kernel::{self, Candidate, InstancePath, Programs, Reporter, Site};
 use core::cell::RefCell;
 use glam::Vec3;
-use optix_device_rs::host::{CallableCall, ExceptionState, Executor, HitState, InstanceState, TraceCall};
+use optix_device_rs::host::{CallableCall, Executor, HitState, InstanceState, TraceCall};
 use optix_device_rs::prelude::{Decision, Ray};
 use optix_device_rs::words::WordBuffer;
 
@@ -25,9 +25,6 @@ macro_rules! of_path {
         }
         fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
             self.call.call(call, words);
-        }
-        fn throw(&self, exception: ExceptionState) -> ! {
-            self.call.throw(exception)
         }
         fn object_to_world(&self) -> [[f32; 4]; 3] {
             rows(self.path.object_to_world())
