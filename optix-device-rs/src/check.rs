@@ -20,45 +20,80 @@ pub use crate::host::View;
 /// A field that is taken for a view is one.
 pub const fn view<V: View>() {}
 
+/// A struct that crosses is copied.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is copied when it travels, so it must be `Copy`",
+    label = "not `Copy`",
+    note = "write `#[derive(Clone, Copy)]` above the struct"
+)]
+pub trait Copied {}
+impl<T: Copy> Copied for T {}
+
+/// Asserts it.
+pub const fn copied<T: Copied>() {}
+
 // ---- Payload parts -------------------------------------------------------------------------------------------------
 
 macro_rules! received {
-    ($($name:ident: $part:ident, $message:literal, $label:literal;)*) => {$(
+    ($($name:ident: $part:ident, $message:literal, $label:literal, $note:literal;)*) => {$(
         /// The part is what a program of one kind receives of payload `R`. Made by `#[derive(Payload)]`.
-        #[diagnostic::on_unimplemented(
-            message = $message,
-            label = $label,
-            note = "a program takes its part of the payload by value, and a record by reference: `(context, record: &Record, ray: Part)`"
-        )]
-        pub trait $name<R: Payload>: Part {
+        #[diagnostic::on_unimplemented(message = $message, label = $label, note = $note)]
+        pub trait $name<R: Payload> {
             /// The identity, as far as types can't say so.
             fn take(part: R::$part) -> Self;
         }
     )*};
 }
 received! {
-    ReceivedByClosestHit: AtClosestHit, "a closest-hit program does not receive `{Self}`", "expected `{R}AtClosestHit`";
-    ReceivedByMiss: AtMiss, "a miss program does not receive `{Self}`", "expected `{R}AtMiss`";
-    ReceivedByAnyHit: AtAnyHit, "an any-hit program does not receive `{Self}`", "expected `{R}AtAnyHit`";
-    ReceivedByIntersection: AtIntersection, "an intersection program does not receive `{Self}`", "expected `{R}AtIntersection`";
+    ReceivedByClosestHit: AtClosestHit,
+        "a closest-hit program reads nothing of this payload, so there is no `{Self}` to receive",
+        "no field of the payload is read by `closesthit`",
+        "add `closesthit` to `read(..)` of the fields that the program reads, `#[payload(write(caller, ..), read(closesthit, ..))]`; or take this argument out";
+    ReceivedByMiss: AtMiss,
+        "a miss program reads nothing of this payload, so there is no `{Self}` to receive",
+        "no field of the payload is read by `miss`",
+        "add `miss` to `read(..)` of the fields that the program reads, `#[payload(write(caller, ..), read(miss, ..))]`; or take this argument out";
+    ReceivedByAnyHit: AtAnyHit,
+        "an any-hit program reads nothing of this payload, so there is no `{Self}` to receive",
+        "no field of the payload is read by `anyhit`",
+        "add `anyhit` to `read(..)` of the fields that the program reads, `#[payload(write(caller, ..), read(anyhit, ..))]`; or take this argument out";
+    ReceivedByIntersection: AtIntersection,
+        "an intersection program reads nothing of this payload, so there is no `{Self}` to receive",
+        "no field of the payload is read by `intersection`",
+        "add `intersection` to `read(..)` of the fields that the program reads, `#[payload(write(caller, ..), read(intersection, ..))]`; or take this argument out";
 }
 
 macro_rules! returned {
-    ($($name:ident: $part:ident, $message:literal, $label:literal;)*) => {$(
+    ($($name:ident: $part:ident, $message:literal, $label:literal, $note:literal;)*) => {$(
         /// The part is what a program of one kind returns of payload `R`. Made by `#[derive(Payload)]`.
-        #[diagnostic::on_unimplemented(message = $message, label = $label)]
-        pub trait $name<R: Payload>: Part {
+        #[diagnostic::on_unimplemented(message = $message, label = $label, note = $note)]
+        pub trait $name<R: Payload> {
             /// The identity, as far as types can't say so.
             fn give(self) -> R::$part;
         }
     )*};
 }
 returned! {
-    ReturnedByClosestHit: FromClosestHit, "a closest-hit program of payload `{R}` does not return `{Self}`", "expected `{R}FromClosestHit`";
-    ReturnedByMiss: FromMiss, "a miss program of payload `{R}` does not return `{Self}`", "expected `{R}FromMiss`";
-    ReturnedByAnyHit: FromAnyHit, "an any-hit program of payload `{R}` does not return `{Self}`", "expected `{R}FromAnyHit`";
-    ReturnedByIntersection: FromIntersection, "an intersection program of payload `{R}` does not return `{Self}`", "expected `{R}FromIntersection`";
+    ReturnedByClosestHit: FromClosestHit,
+        "a closest-hit program of payload `{R}` does not return `{Self}`",
+        "not what a closest-hit program writes of `{R}`",
+        "it returns a `{R}FromClosestHit` if fields of `{R}` say `#[payload(write(closesthit, ..))]`, and nothing if none does";
+    ReturnedByMiss: FromMiss,
+        "a miss program of payload `{R}` does not return `{Self}`",
+        "not what a miss program writes of `{R}`",
+        "it returns a `{R}FromMiss` if fields of `{R}` say `#[payload(write(miss, ..))]`, and nothing if none does";
+    ReturnedByAnyHit: FromAnyHit,
+        "an any-hit program of payload `{R}` does not return `{Self}`",
+        "not what an any-hit program writes of `{R}`",
+        "it returns a `(Decision, {R}FromAnyHit)` if fields of `{R}` say `#[payload(write(anyhit, ..))]`, and the `Decision` alone if none does";
+    ReturnedByIntersection: FromIntersection,
+        "an intersection program of payload `{R}` does not return `{Self}`",
+        "not what an intersection program writes of `{R}`",
+        "it returns a `{R}FromIntersection` if fields of `{R}` say `#[payload(write(intersection, ..))]`, and nothing if none does";
 }
+
+/// In the place of a payload field that a party does not read. It can't be moved out of where it is, and has no methods.
+pub struct NotReadHere;
 
 /// What a program without a payload in its result leaves behind.
 #[diagnostic::on_unimplemented(

@@ -67,6 +67,16 @@ pub fn copy_bound(ident: &Ident) -> TokenStream {
     quote_spanned!(span=> where #ident: ::core::marker::Copy)
 }
 
+/// What reports once, at the struct's name, that it is not `Copy`; and the bound with which an impl leaves it at that. With a
+/// lifetime, since rustc reports a plain bound that does not hold.
+pub fn must_copy(model: &Struct) -> (TokenStream, TokenStream) {
+    let ident = &model.ident;
+    let span = place_of(ident);
+    let krate = moved(&model.krate, span);
+    let assertion = quote_spanned!(span=> const _: () = #krate::check::copied::<#ident>(););
+    (assertion, quote!(where for<'__never> #ident: ::core::marker::Copy))
+}
+
 /// [`copy_bound`], and [`view_bounds`].
 pub fn struct_bounds(model: &Struct) -> TokenStream {
     let (copy, views) = (copy_bound(&model.ident), view_bounds(model));

@@ -1,6 +1,6 @@
 //! `#[derive(Words)]` and `#[derive(Attributes)]`: structs in registers.
 
-use crate::data::touch;
+use crate::data::{must_copy, touch};
 use crate::shape::{Struct, construct};
 use crate::support::{Errors, allow, moved, place_of};
 use proc_macro2::TokenStream;
@@ -52,14 +52,16 @@ pub fn derive_words(input: &DeriveInput) -> TokenStream {
     let (krate, ident, allow) = (&model.krate, &model.ident, allow());
     let Places { consts, stores, load } = places(&model);
     let touch = touch(&model);
+    let (must_copy, bound) = must_copy(&model);
     let errors = errors.into_tokens();
     quote! {
         #errors
         #allow
         const _: () = {
             #consts
+            #must_copy
             #[automatically_derived]
-            impl #krate::words::Words for #ident {
+            impl #krate::words::Words for #ident #bound {
                 const COUNT: ::core::primitive::usize = __END;
                 #[inline(always)]
                 fn store(self, __words: &mut [::core::primitive::u32]) {

@@ -79,8 +79,9 @@ pub struct Field {
 /// Some of the fields of a payload: those that one party reads or writes.
 ///
 /// # Safety
-/// `load` and `store` touch the words of `FIELDS` and no others, and of those the first 32 are in `MASK`.
-pub unsafe trait Part: Copy {
+/// `load` and `store` touch the words of `FIELDS` and no others, and of those the first 32 are in `MASK`. Every field is
+/// [`Words`](crate::words::Words), so a copy of a part is as good as the part.
+pub unsafe trait Part: Sized {
     /// How its payload travels.
     type Transport: Transport;
     /// The part's fields: indices into [`Payload::FIELDS`].
@@ -113,7 +114,7 @@ unsafe impl Part for () {
     label = "expected a struct such as `RadianceAtClosestHit` or `RadianceFromClosestHit`",
     note = "a program takes and returns the structs that `#[derive(Payload)]` makes, by value, not the payload itself; a record is taken by reference, `&{Self}`"
 )]
-pub trait PartOf: Part {
+pub trait PartOf {
     /// The payload the part belongs to.
     type Payload: Payload;
 }

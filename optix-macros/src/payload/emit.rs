@@ -15,6 +15,11 @@ struct Part {
 }
 
 impl Part {
+    /// Whether it has nothing of the payload: `()` is in its place, and its struct is there for who asks for it.
+    fn is_hollow(&self) -> bool {
+        self.fields.is_empty()
+    }
+
     /// `AtMiss` and the like.
     fn role(&self) -> Ident {
         format_ident!("{}{}", if self.reads { "At" } else { "From" }, self.party.suffix())
@@ -35,11 +40,13 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
         })
         .collect();
 
-    let structs = parts.iter().filter(|p| !p.fields.is_empty()).map(|part| part_struct(payload, part));
-    let impls = parts.iter().filter(|p| !p.fields.is_empty()).map(|part| part_impls(payload, part));
+    let structs = parts.iter().map(|part| part_struct(payload, part));
+    let impls = parts
+        .iter()
+        .map(|part| if part.is_hollow() { hollow_impls(payload, part, sound) } else { part_impls(payload, part) });
     let types = parts.iter().map(|part| {
         let role = part.role();
-        if part.fields.is_empty() {
+        if part.is_hollow() {
             quote!(type #role = ();)
         } else {
             let part = &part.ident;
@@ -97,7 +104,7 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
         }),
         Transport::Pointer => {
             // The caller gives the address, and who has a part in the payload gets it.
-            let parties = parts.iter().filter(|part| part.party != Party::Caller && !part.fields.is_empty());
+            let parties = parts.iter().filter(|part| part.party != Party::Caller && !part.is_hollow());
             let bits = parties.map(|part| semantics_bit(krate, part.party, "READ"));
             let caller = semantics_bit(krate, Party::Caller, "WRITE");
             quote!([#caller #(| #bits)*; 2])
@@ -164,23 +171,37 @@ fn transport(payload: &Payload) -> TokenStream {
 }
 
 fn part_struct(payload: &Payload, part: &Part) -> TokenStream {
-    let (shape, name, ident) = (&payload.shape, payload.shape.name(), &part.ident);
+    let shape = &payload.shape;
+    let (name, ident) = (shape.name(), &part.ident);
     let vis = &shape.vis;
+    let (keyword, phrase) = (part.party.keyword(), part.party.phrase());
     let doc = match (part.party, part.reads) {
-        (Party::Caller, false) => format!("What the caller gives to `trace` with a ray of payload [`{name}`]."),
-        (Party::Caller, true) => format!("What `trace` returns of payload [`{name}`]."),
-        (party, true) => format!("What {} receives of payload [`{name}`].", party.phrase()),
-        (party, false) => format!("What {} must return of payload [`{name}`].", party.phrase()),
+        (Party::Caller, false) => format!("What the caller gives to `trace` with a ray of payload [`{name}`]"),
+        (Party::Caller, true) => format!("What `trace` returns of payload [`{name}`]"),
+        (_, true) => format!("What {phrase} receives of payload [`{name}`]"),
+        (_, false) => format!("What {phrase} must return of payload [`{name}`]"),
     };
-    let fields = part.fields.iter().map(|&i| {
+    let list = if part.reads { "read" } else { "write" };
+    let doc = if part.is_hollow() {
+        format!("{doc}: nothing, since no field says `{list}({keyword})`; this struct is here for its message.")
+    } else {
+        format!("{doc}: the fields that say `{list}({keyword})`.")
+    };
+    // Of a struct that nobody gets, all fields, so that nothing but its use is reported.
+    let all = 0..shape.fields.len();
+    let indices: Vec<usize> = if part.is_hollow() { all.collect() } else { part.fields.clone() };
+    let fields = indices.into_iter().map(|i| {
         let field = &shape.fields[i];
         let (vis, member, ty) = (&field.vis, &field.member, &field.ty);
         let docs = docs_or(&field.attrs, || format!("Field `{}` of [`{name}`].", field.name()));
-        quote!(#docs #vis #member: #ty)
+        let access = &payload.access[i];
+        let who = format!("\n\nWritten by {}, read by {}.", access.write.phrase(), access.read.phrase());
+        quote!(#docs #[doc = #who] #vis #member: #ty)
     });
+    let hidden = part.is_hollow().then(|| quote!(#[doc(hidden)]));
     quote! {
         #[doc = #doc]
-        #[derive(::core::clone::Clone, ::core::marker::Copy)]
+        #hidden
         #[allow(dead_code, unreachable_pub, private_interfaces, missing_docs)]
         #vis struct #ident {
             #(#fields,)*
@@ -188,10 +209,59 @@ fn part_struct(payload: &Payload, part: &Part) -> TokenStream {
     }
 }
 
+/// The fields that a party does not read, for the message that their use gives: what it receives leads there by `Deref`, which
+/// the compiler follows for fields that it does not find.
+fn unread(payload: &Payload, part: &Part) -> Option<TokenStream> {
+    let shape = &payload.shape;
+    let missing: Vec<_> = (0..shape.fields.len()).filter(|i| !part.fields.contains(i)).collect();
+    if !part.reads || missing.is_empty() {
+        return None;
+    }
+    let (krate, ident, name, keyword) = (&shape.krate, &part.ident, shape.name(), part.party.keyword());
+    let unread = format_ident!("{}NotAt{}", name, part.party.suffix());
+    let members: Vec<_> = missing.iter().map(|&i| &shape.fields[i].member).collect();
+    let notes = missing.iter().map(|&i| {
+        let field = shape.fields[i].name();
+        let phrase = part.party.phrase();
+        format!("{phrase} does not read `{field}`: add `{keyword}` to `read(..)` of that field in `{name}`")
+    });
+    Some(quote! {
+        pub struct #unread {
+            #(#[deprecated(note = #notes)] pub #members: #krate::check::NotReadHere,)*
+        }
+        #[automatically_derived]
+        impl ::core::ops::Deref for #ident {
+            type Target = #unread;
+            #[allow(deprecated)]
+            #[inline(always)]
+            fn deref(&self) -> &#unread {
+                &#unread { #(#members: #krate::check::NotReadHere),* }
+            }
+        }
+    })
+}
+
+/// The impls of a part without fields, which is no part of a program of any kind. After a mistake in the payload itself nothing
+/// is said about that.
+fn hollow_impls(payload: &Payload, part: &Part, sound: bool) -> TokenStream {
+    if part.party == Party::Caller {
+        return TokenStream::new();
+    }
+    let (krate, payload_ident, ident) = (&payload.shape.krate, &payload.shape.ident, &part.ident);
+    let passage = (!sound).then(|| passage(payload, part, &quote!(loop {}), &quote!({})));
+    quote! {
+        #[automatically_derived]
+        impl #krate::payload::PartOf for #ident {
+            type Payload = #payload_ident;
+        }
+        #passage
+    }
+}
+
 fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
     let shape = &payload.shape;
     let (krate, payload_ident, ident) = (&shape.krate, &shape.ident, &part.ident);
-    let passage = passage(payload, part);
+    let passage = passage(payload, part, &quote!(__part), &quote!(self));
     let places = part.fields.iter().map(|i| (format_ident!("__AT_{i}"), format_ident!("__AT_{}", i + 1)));
     let masks = part.fields.iter().map(|i| {
         let (at, count) = (format_ident!("__AT_{i}"), format_ident!("__COUNT_{i}"));
@@ -227,8 +297,28 @@ fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
             }
         }
     };
+    // What can't be copied is no `Words`, which is reported once, where the field is.
+    let bounds = fields.iter().map(|field| {
+        let ty = &field.ty;
+        quote!(for<'__never> #ty: ::core::marker::Copy)
+    });
+    let bounds = quote!(#(#bounds,)*);
+    let copies = quote! {
+        #[automatically_derived]
+        impl ::core::clone::Clone for #ident where #bounds {
+            #[inline(always)]
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+        #[automatically_derived]
+        impl ::core::marker::Copy for #ident where #bounds {}
+    };
+    let unread = unread(payload, part);
     quote! {
         #debug
+        #copies
+        #unread
         // SAFETY: a field's words are counted by its type.
         #[automatically_derived]
         unsafe impl #krate::payload::Part for #ident {
@@ -253,20 +343,21 @@ fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
     }
 }
 
-/// What says that a program of the party's kind receives or returns the part.
-fn passage(payload: &Payload, part: &Part) -> TokenStream {
+/// What says that a program of the party's kind receives or returns the part, with the bodies that do it.
+fn passage(payload: &Payload, part: &Part, take: &TokenStream, give: &TokenStream) -> TokenStream {
     if part.party == Party::Caller {
         return TokenStream::new();
     }
-    let (krate, payload, ident) = (&payload.shape.krate, &payload.shape.ident, &part.ident);
+    let (krate, payload, ident, role) = (&payload.shape.krate, &payload.shape.ident, &part.ident, part.role());
+    let part_type = quote!(<#payload as #krate::payload::Payload>::#role);
     if part.reads {
         let passage = format_ident!("ReceivedBy{}", part.party.suffix());
         quote! {
             #[automatically_derived]
             impl #krate::check::#passage<#payload> for #ident {
                 #[inline(always)]
-                fn take(__part: Self) -> Self {
-                    __part
+                fn take(__part: #part_type) -> Self {
+                    #take
                 }
             }
         }
@@ -276,8 +367,8 @@ fn passage(payload: &Payload, part: &Part) -> TokenStream {
             #[automatically_derived]
             impl #krate::check::#passage<#payload> for #ident {
                 #[inline(always)]
-                fn give(self) -> Self {
-                    self
+                fn give(self) -> #part_type {
+                    #give
                 }
             }
         }

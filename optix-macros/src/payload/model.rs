@@ -83,6 +83,15 @@ impl Parties {
     pub fn has(&self, party: Party) -> bool {
         self.span(party).is_some()
     }
+    /// In a sentence.
+    pub fn phrase(&self) -> String {
+        let phrases: Vec<&str> = self.0.iter().map(|(party, _)| party.phrase()).collect();
+        match phrases.split_last() {
+            None => "nobody".to_owned(),
+            Some((last, [])) => (*last).to_owned(),
+            Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        }
+    }
     pub fn span(&self, party: Party) -> Option<Span> {
         self.0.iter().find(|(p, _)| *p == party).map(|(_, span)| *span)
     }

@@ -17,7 +17,7 @@ pub struct Lambert {
 }
 
 #[miss]
-pub fn sky<P: Pipeline>(ms: &Miss<P>, record: &Lambert, ray: RadianceAtMiss, depth: u32) -> RadianceFromMiss {
+pub fn sky<P: Pipeline>(_: &Miss<P>, _: &Lambert, _: RadianceAtMiss, _: u32) -> RadianceFromMiss {
     todo!()
 }
 

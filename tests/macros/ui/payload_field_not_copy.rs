@@ -1,0 +1,21 @@
+// H001: what a payload holds can be copied
+
+use optix_device_rs::prelude::*;
+
+#[derive(Clone, Debug)]
+pub struct Spectrum {
+    pub bands: [f32; 4],
+}
+
+#[derive(Payload)]
+pub struct Radiance {
+    #[payload(write(closesthit, miss), read(caller))]
+    pub light: Spectrum,
+}
+
+#[miss]
+pub fn dark<P: Pipeline>(_: &Miss<P>) -> RadianceFromMiss {
+    RadianceFromMiss { light: Spectrum { bands: [0.0; 4] } }
+}
+
+fn main() {}
