@@ -103,14 +103,7 @@ impl<P: PipelineType> Pipeline<P> {
         if accel.slots > self.slots {
             return Err("the scene got more materials after the pipeline was built: build the pipeline again".into());
         }
-        if !self.plan.graph.allows(accel.depth) {
-            return Err(format!(
-                "it traces against a graph with {} levels of instances, but the pipeline was specialised to {}: \
-                 build the pipeline after the acceleration structures",
-                accel.depth, self.plan.graph
-            ));
-        }
-        Ok(())
+        self.plan.allows(accel.depth)
     }
 
     /// Whether the pipeline's table has these callables.

@@ -538,7 +538,11 @@ pub fn exception(arguments: TokenStream, item: TokenStream) -> TokenStream {
 ///   exceptions of a launch are printed by OptiX, and are complaints of the CPU's device.
 /// - `callable_depth: N`, 1 to 31, optional: the most callables that run one inside of the other. It follows from the programs
 ///   and their signatures, unless a callable can come to be called inside of itself.
-/// - `trace_depth: N`, 0 to 31, optional: how deep trace calls nest, where it is known better than from the programs.
+/// - `trace_depth: N`, 0 to 31, optional: how deep trace calls nest. It follows from the programs, unless rays lead to more of their
+///   type, as in a path tracer that recurses. More than the programs need is taken as it is.
+///
+///   Where the pipeline is built with its PTX, a depth that is less than what the programs need is an error that names the chain of
+///   programs. Without PTX, on the CPU, a launch ends where its programs nest deeper.
 /// - `crate: path`, optional: optix-device-rs under another name.
 ///
 /// A program is the path of a function with its kind's attribute, without type arguments. "Expected type, found function" is

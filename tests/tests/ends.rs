@@ -76,7 +76,6 @@ impl Drop for Bomb {
 }
 
 /// As [`Bomb`], with another inside.
-#[expect(dead_code, reason = "dropped")]
 struct Bombs(Bomb);
 
 impl Drop for Bombs {

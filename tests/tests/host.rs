@@ -1,7 +1,7 @@
 //! What the host refuses, and how it says so; and that launches see the records and parameters they were given.
 
 use glam::{Affine3A, Vec3};
-use optix_host::scene::{GeometryError, InstanceFlags};
+use optix_host::scene::{Accel, GeometryError, InstanceFlags};
 use optix_host::{Device, Error, Pipeline, Scene, TriangleMesh};
 use optix_tests::devices;
 use optix_tests::probe::{PTX, Part, ProbeRay, Tracer, ray};
@@ -65,7 +65,23 @@ fn scenes_and_devices_do_not_mix() {
     pipeline.launch(&frame(&device, world), [1, 1, 1]).unwrap().wait().unwrap();
     // A graph that the pipeline was not specialised to.
     let deeper = a.ias([gas.at(Affine3A::IDENTITY)]).build().unwrap().world().unwrap();
-    says(pipeline.launch(&frame(&device, deeper), [1, 1, 1]), &["specialised", "a single GAS"]);
+    says(pipeline.launch(&frame(&device, deeper.clone()), [1, 1, 1]), &["specialised", "a single GAS"]);
+    // One level of instances takes neither less nor more, deeper graphs less.
+    let pipeline = Pipeline::for_scene(&a).ptx(PTX).build().unwrap();
+    pipeline.launch(&frame(&device, deeper.clone()), [1, 1, 1]).unwrap().wait().unwrap();
+    says(pipeline.launch(&frame(&device, gas.world().unwrap()), [1, 1, 1]), &["a GAS", "put the GAS into one"]);
+    let nested = |a: &mut Scene<Probe>, of: &Accel<Probe>| a.ias([of.at(Affine3A::IDENTITY)]).build().unwrap();
+    let one = nested(&mut a, &gas);
+    let two = nested(&mut a, &one);
+    let graphs = [gas.clone(), one, two.clone(), nested(&mut a, &two)];
+    says(pipeline.launch(&frame(&device, two.world().unwrap()), [1, 1, 1]), &["2 levels", "one level of instances"]);
+    for pipeline in [Pipeline::for_scene(&a).ptx(PTX).build().unwrap(), Pipeline::for_scene(&a).build().unwrap()] {
+        for graph in &graphs {
+            pipeline.launch(&frame(&device, graph.world().unwrap()), [1, 1, 1]).unwrap().wait().unwrap();
+        }
+        let deepest = nested(&mut a, &graphs[3]).world().unwrap();
+        says(pipeline.launch(&frame(&device, deepest), [1, 1, 1]), &["4 levels", "any graph", "(3)"]);
+    }
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! Which programs a launch reaches, and how deep their calls nest (guide 6.7, 6.8).
 
 use crate::{Error, Result};
-use optix_device_rs::host::PipelineDescription;
+use optix_device_rs::host::{Entry, PipelineDescription};
 use optix_ptx::{Function, Module, Prototype};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// Deepest nesting of trace calls (guide 12).
 const MAX_TRACE_DEPTH: u32 = 31;
@@ -27,6 +27,8 @@ const CONTINUATION: CallableKind =
 /// A program that a launch can reach.
 pub(crate) struct Reached {
     pub name: &'static str,
+    /// As its source calls it, for messages.
+    function: &'static str,
     place: Place,
 }
 
@@ -57,33 +59,33 @@ pub(crate) fn needed_entries(
     callables: &BTreeSet<usize>,
 ) -> Vec<Reached> {
     let mut entries: Vec<Reached> = Vec::new();
-    let mut add = |name, place| {
-        if !entries.iter().any(|e| e.name == name && e.place == place) {
-            entries.push(Reached { name, place });
+    let mut add = |entry: Entry, place| {
+        if !entries.iter().any(|e| e.name == entry.name && e.place == place) {
+            entries.push(Reached { name: entry.name, function: entry.function, place });
         }
     };
     for raygen in description.raygen {
-        add(raygen.entry.name, Place::RayGen);
+        add(raygen.entry, Place::RayGen);
     }
     for (ray, of) in description.rays.iter().enumerate() {
         if let Some(miss) = of.miss {
-            add(miss.entry.name, Place::Shading(ray));
+            add(miss.entry, Place::Shading(ray));
         }
         for &group in groups {
             let programs = description.hitgroups[group].rays[ray];
             if let Some(entry) = programs.closesthit {
-                add(entry.name, Place::Shading(ray));
+                add(entry, Place::Shading(ray));
             }
             for entry in [programs.anyhit, programs.intersection].into_iter().flatten() {
-                add(entry.name, Place::Traversal(ray));
+                add(entry, Place::Traversal(ray));
             }
         }
     }
     for callable in callables.iter().map(|&index| &description.callables[index]) {
-        add(callable.entry.name, if callable.continuation { Place::Continuation } else { Place::Direct });
+        add(callable.entry, if callable.continuation { Place::Continuation } else { Place::Direct });
     }
     if let Some(program) = description.exceptions.program {
-        add(program.entry.name, Place::Exception);
+        add(program.entry, Place::Exception);
     }
     entries
 }
@@ -93,7 +95,7 @@ pub(crate) fn needed_entries(
 pub(crate) struct Depths {
     /// Trace calls.
     pub trace: u32,
-    /// Whether the trace depth is what the declaration says, and not what follows from the programs.
+    /// Whether the trace depth holds only because the declaration says so: the programs may trace deeper, for all that can be seen.
     pub trace_is_a_promise: bool,
     /// Continuation callables.
     pub continuation: u32,
@@ -114,11 +116,11 @@ impl Depths {
         let error = |what: String| Error::Pipeline { pipeline: description.name, what };
         let programs = module.map(|module| programs(entries, module).map_err(error)).transpose()?;
         let programs = programs.as_deref();
-        let (trace, why) = trace(description, programs).map_err(error)?;
+        let (trace, is_a_promise, why) = trace(description, programs).map_err(error)?;
         note("trace depth", trace.to_string(), why);
         let mut depths = Self {
             trace,
-            trace_is_a_promise: description.trace_depth.is_some() || programs.is_none(),
+            trace_is_a_promise: is_a_promise,
             continuation: 0,
             direct_from_traversal: 0,
             direct_from_state: 0,
@@ -135,7 +137,7 @@ impl Depths {
                     (None, None) => "the most there is: without PTX it is not known which programs call",
                     (Some(_), None) => "stated in the pipeline's declaration",
                     (Some(_), Some(_)) => {
-                        "the longest chain of calls in the compiled programs, or what the declaration states if that is less"
+                        "the longest chain of calls in the compiled programs, or where that has no end what the declaration states"
                     }
                     (None, Some(_)) => "the longest chain of calls in the compiled programs",
                 }
@@ -157,15 +159,26 @@ impl Depths {
             return Ok(());
         };
         let depth = |kind: &CallableKind, from: fn(Place) -> bool| {
-            nesting(programs, kind, from, description.callable_depth).map_err(|name| {
-                let callable = description.callables.iter().find(|callable| callable.entry.name == name);
-                format!(
+            let callables: Vec<_> = programs.iter().filter(|program| program.reached.place == kind.place).collect();
+            let function = |callable: usize| callables[callable].reached.function;
+            let (roots, leads_to) = calls(programs, &callables, kind, from);
+            match nesting(&leads_to, &roots, description.callable_depth) {
+                Ok(Nesting::Known(depth) | Nesting::Promised(depth)) => Ok(depth),
+                Err(Misfit::Endless(callable)) => Err(format!(
                     "its {} callables call each other, and `{}` can come to be called inside of itself, so nothing bounds how \
                      deep: state `callable_depth: N` in `pipeline!`, the most callables that run one inside of the other",
                     kind.name,
-                    callable.map_or(name, |callable| callable.entry.function)
-                )
-            })
+                    function(callable)
+                )),
+                Err(Misfit::Deeper(chain, stated)) => Err(format!(
+                    "`callable_depth: {stated}` is stated in `pipeline!`, but its {} callables can be called {} deep: {}; state \
+                     {} or more, or call callables of another signature there",
+                    kind.name,
+                    chain.len(),
+                    chain.iter().map(|&at| format!("`{}`", function(at))).collect::<Vec<_>>().join(" calls "),
+                    chain.len()
+                )),
+            }
         };
         self.continuation = depth(&CONTINUATION, is_state)?;
         self.direct_from_traversal = depth(&DIRECT, |place| matches!(place, Place::Traversal(_)))?;
@@ -224,16 +237,14 @@ fn called(functions: &[&Function<'_>]) -> Option<Vec<Prototype>> {
     (prototypes.len() >= calls.count()).then_some(prototypes)
 }
 
-/// How deep callables of a kind nest below the programs that run at these places: the longest path over callables, where a
-/// program leads to those that take and give what it calls with. Without an end to that it is what is stated; else the error is
-/// the name of a callable that leads to itself.
-fn nesting(
+/// Which callables of a kind the programs that run at these places call, and which each callable calls: those that take and
+/// give what is called with.
+fn calls(
     programs: &[Program<'_, '_>],
+    callables: &[&Program<'_, '_>],
     kind: &CallableKind,
     from: fn(Place) -> bool,
-    stated: Option<u32>,
-) -> Result<u32, &'static str> {
-    let callables: Vec<_> = programs.iter().filter(|program| program.reached.place == kind.place).collect();
+) -> (BTreeSet<usize>, Vec<BTreeSet<usize>>) {
     let called = |program: &Program<'_, '_>| -> BTreeSet<usize> {
         // What can't be read may be any.
         let fits = |callable: &Program<'_, '_>| match (&callable.prototype, &program.called) {
@@ -243,90 +254,193 @@ fn nesting(
         let all = if program.calls.contains(kind.call) { callables.len() } else { 0 };
         (0..all).filter(|&index| fits(callables[index])).collect()
     };
-    let leads_to: Vec<_> = callables.iter().map(|callable| called(callable)).collect();
-    let roots = programs.iter().filter(|program| from(program.reached.place)).flat_map(called).collect();
-    match (longest(&leads_to, &roots, &mut vec![Visit::New; callables.len()]), stated) {
-        (Ok(depth), stated) => Ok(stated.map_or(depth, |stated| stated.min(depth))),
-        (Err(_), Some(stated)) => Ok(stated),
-        (Err(callable), None) => Err(callables[callable].reached.name),
+    let leads_to = callables.iter().map(|callable| called(callable)).collect();
+    (programs.iter().filter(|program| from(program.reached.place)).flat_map(called).collect(), leads_to)
+}
+
+/// How deep trace calls nest, whether that is only a promise, and why: the longest path from ray generation over ray types,
+/// where a ray type leads to those that its programs trace, and a call of a continuation callable to those that any of them
+/// traces.
+fn trace(
+    description: &PipelineDescription,
+    programs: Option<&[Program<'_, '_>]>,
+) -> Result<(u32, bool, String), String> {
+    let stated = description.trace_depth;
+    if let Some(depth) = stated.filter(|&depth| depth > MAX_TRACE_DEPTH) {
+        return Err(format!("trace_depth {depth} is more than {MAX_TRACE_DEPTH} (guide 12)"));
+    }
+    let Some(programs) = programs else {
+        return Ok(match stated {
+            Some(depth) => (depth, true, "stated in the pipeline's declaration".into()),
+            None => {
+                (MAX_TRACE_DEPTH, true, "the most there is: without PTX it is not known which programs trace".into())
+            }
+        });
+    };
+    let traces = match (Traces::of(description, programs), stated) {
+        (Ok(traces), _) => traces,
+        (Err(program), Some(depth)) => {
+            let why = format!("stated in the pipeline's declaration; which rays `{program}` traces is not known");
+            return Ok((depth, true, why));
+        }
+        (Err(program), None) => {
+            return Err(format!(
+                "the payload type of a trace call in `{program}` is not a constant, so the trace depth is not known: state \
+                 `trace_depth: N` in `pipeline!`"
+            ));
+        }
+    };
+    let ray = |ray: usize| description.rays[ray].payload.name;
+    match nesting(&traces.leads_to, &traces.roots, stated) {
+        Ok(Nesting::Known(depth)) => Ok(match stated {
+            Some(stated) if stated > depth => (
+                stated,
+                false,
+                format!("stated in the pipeline's declaration; the compiled programs trace {depth} deep"),
+            ),
+            _ => (depth, false, "the longest chain of trace calls in the compiled programs".into()),
+        }),
+        Ok(Nesting::Promised(depth)) => {
+            Ok((depth, true, "stated in the pipeline's declaration: the programs trace rays recursively".into()))
+        }
+        Err(Misfit::Endless(node)) => Err(format!(
+            "its programs trace rays recursively, and a ray `{}` can lead to another, so nothing bounds the trace depth: state \
+             `trace_depth: N` in `pipeline!`",
+            ray(node)
+        )),
+        Err(Misfit::Deeper(chain, stated)) => {
+            let from = core::iter::once(None).chain(chain.iter().copied().map(Some));
+            let steps =
+                from.zip(&chain).map(|(from, &to)| format!("`{}` traces `{}`", traces.who[&(from, to)], ray(to)));
+            Err(format!(
+                "`trace_depth: {stated}` is stated in `pipeline!`, but its programs trace rays {} deep: {}; state {} or more, or \
+                 leave `trace_depth` out, which makes it what the programs need",
+                chain.len(),
+                steps.collect::<Vec<_>>().join(", "),
+                chain.len()
+            ))
+        }
     }
 }
 
-/// How deep trace calls nest: the longest path from ray generation over ray types, where a ray type leads to those that its
-/// programs trace, and a call of a continuation callable to those that any of them traces.
-fn trace(description: &PipelineDescription, programs: Option<&[Program<'_, '_>]>) -> Result<(u32, String), String> {
-    if let Some(depth) = description.trace_depth {
-        return match depth {
-            0..=MAX_TRACE_DEPTH => Ok((depth, "stated in the pipeline's declaration".into())),
-            _ => Err(format!("trace_depth {depth} is more than {MAX_TRACE_DEPTH} (guide 12)")),
+/// Which ray types lead to which.
+struct Traces {
+    /// Those of ray generation.
+    roots: BTreeSet<usize>,
+    leads_to: Vec<BTreeSet<usize>>,
+    /// The first program that traces a ray type in the programs of another, or in ray generation.
+    who: BTreeMap<(Option<usize>, usize), &'static str>,
+}
+
+impl Traces {
+    /// The error is a program of which it can't be said what it traces.
+    fn of(description: &PipelineDescription, programs: &[Program<'_, '_>]) -> Result<Self, &'static str> {
+        let rays = description.rays.len();
+        let traced = |program: &Program<'_, '_>| -> Result<Vec<(usize, &'static str)>, &'static str> {
+            let function = program.reached.function;
+            let traces = program.traces.as_ref().ok_or(function)?;
+            Ok(traces.iter().copied().filter(|&ray| ray < rays).map(|ray| (ray, function)).collect())
         };
-    }
-    let Some(programs) = programs else {
-        return Ok((MAX_TRACE_DEPTH, "the most there is: without PTX it is not known which programs trace".into()));
-    };
-    let rays = description.rays.len();
-    let traced = |program: &Program<'_, '_>| match &program.traces {
-        Some(traces) => Ok(traces.iter().copied().filter(|&ray| ray < rays).collect::<BTreeSet<_>>()),
-        None => Err(format!(
-            "the payload type of a trace call in {} is not a constant, so the trace depth is not known: state \
-             `trace_depth: N` in `pipeline!`",
-            program.reached.name
-        )),
-    };
-    let mut by_callables = BTreeSet::new();
-    for program in programs.iter().filter(|program| program.reached.place == Place::Continuation) {
-        by_callables.extend(traced(program)?);
-    }
-    let mut leads_to = vec![BTreeSet::new(); rays];
-    let mut roots = BTreeSet::new();
-    for program in programs {
-        let to = match program.reached.place {
-            Place::RayGen => &mut roots,
-            Place::Shading(ray) => &mut leads_to[ray],
-            // Those trace nothing, or count where they are called.
-            _ => continue,
-        };
-        to.extend(traced(program)?);
-        if program.calls.contains(CONTINUATION.call) {
-            to.extend(&by_callables);
+        let mut by_callables = Vec::new();
+        for program in programs.iter().filter(|program| program.reached.place == Place::Continuation) {
+            by_callables.extend(traced(program)?);
         }
+        let mut all = Self { roots: BTreeSet::new(), leads_to: vec![BTreeSet::new(); rays], who: BTreeMap::new() };
+        for program in programs {
+            let (from, to) = match program.reached.place {
+                Place::RayGen => (None, &mut all.roots),
+                Place::Shading(ray) => (Some(ray), &mut all.leads_to[ray]),
+                // Those trace nothing, or count where they are called.
+                _ => continue,
+            };
+            let calls = program.calls.contains(CONTINUATION.call);
+            for (ray, function) in traced(program)?.into_iter().chain(by_callables.iter().copied().filter(|_| calls)) {
+                to.insert(ray);
+                all.who.entry((from, ray)).or_insert(function);
+            }
+        }
+        Ok(all)
     }
-    match longest(&leads_to, &roots, &mut vec![Visit::New; rays]) {
-        Ok(depth) => Ok((depth, "the longest chain of trace calls in the compiled programs".into())),
-        Err(ray) => Err(format!(
-            "its programs trace rays recursively, and a ray `{}` can lead to another, so nothing bounds the trace depth: state \
-             `trace_depth: N` in `pipeline!`",
-            description.rays[ray].payload.name
-        )),
+}
+
+/// How deep nodes nest.
+enum Nesting {
+    /// As deep as the longest path.
+    Known(u32),
+    /// The paths have no end, and this deep is stated.
+    Promised(u32),
+}
+
+/// Why it can't be said how deep.
+enum Misfit {
+    /// The node leads to itself, and nothing is stated.
+    Endless(usize),
+    /// A path that is longer than what is stated.
+    Deeper(Vec<usize>, u32),
+}
+
+/// How deep nodes nest, from these. Where they nest without end, what is stated is believed, unless it is too little for a step
+/// on the shortest path to it.
+fn nesting(leads_to: &[BTreeSet<usize>], from: &BTreeSet<usize>, stated: Option<u32>) -> Result<Nesting, Misfit> {
+    let found = longest(leads_to, from, &mut vec![Visit::New; leads_to.len()]);
+    let chain = match (&found, stated) {
+        (Ok(chain), _) => chain,
+        (Err(node), None) => return Err(Misfit::Endless(*node)),
+        (Err(_), Some(_)) => &shortest(leads_to, from),
+    };
+    let depth = chain.len() as u32;
+    match stated {
+        Some(stated) if stated < depth => Err(Misfit::Deeper(chain.clone(), stated)),
+        Some(stated) if found.is_err() => Ok(Nesting::Promised(stated)),
+        _ => Ok(Nesting::Known(depth)),
     }
+}
+
+/// The path that is longest of those that lead to a step as soon as can be.
+fn shortest(leads_to: &[BTreeSet<usize>], from: &BTreeSet<usize>) -> Vec<usize> {
+    let mut met = BTreeSet::new();
+    let mut queue: VecDeque<Vec<usize>> = from.iter().map(|&node| vec![node]).collect();
+    let mut last = Vec::new();
+    while let Some(path) = queue.pop_front() {
+        if let Some(&node) = path.last()
+            && met.insert(node)
+        {
+            queue.extend(leads_to[node].iter().map(|&next| [&path[..], &[next]].concat()));
+        }
+        // In order of their lengths.
+        last = path;
+    }
+    last
 }
 
 /// What is known of a node.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 enum Visit {
     New,
     OnPath,
-    /// The longest path from here.
-    Done(u32),
+    /// The longest path from here, without this.
+    Done(Vec<usize>),
 }
 
 /// The longest path from any of `from`; the error is a node that leads to itself.
-fn longest(leads_to: &[BTreeSet<usize>], from: &BTreeSet<usize>, visits: &mut [Visit]) -> Result<u32, usize> {
-    let mut depth = 0;
+fn longest(leads_to: &[BTreeSet<usize>], from: &BTreeSet<usize>, visits: &mut [Visit]) -> Result<Vec<usize>, usize> {
+    let mut path = Vec::new();
     for &node in from {
-        let below = match visits[node] {
+        let below = match &visits[node] {
             Visit::OnPath => return Err(node),
-            Visit::Done(below) => below,
+            Visit::Done(below) => below.clone(),
             Visit::New => {
                 visits[node] = Visit::OnPath;
                 let below = longest(leads_to, &leads_to[node], visits)?;
-                visits[node] = Visit::Done(below);
+                visits[node] = Visit::Done(below.clone());
                 below
             }
         };
-        depth = depth.max(1 + below);
+        if below.len() >= path.len() {
+            path = [&[node], &below[..]].concat();
+        }
     }
-    Ok(depth)
+    Ok(path)
 }
 
 #[cfg(test)]
@@ -338,7 +452,7 @@ mod tests {
         let set = |items: &[usize]| items.iter().copied().collect::<BTreeSet<_>>();
         let path = |edges: &[&[usize]], roots: &[usize]| {
             let edges: Vec<_> = edges.iter().map(|e| set(e)).collect();
-            longest(&edges, &set(roots), &mut vec![Visit::New; edges.len()])
+            longest(&edges, &set(roots), &mut vec![Visit::New; edges.len()]).map(|path| path.len())
         };
         assert_eq!(path(&[&[1], &[]], &[0]), Ok(2));
         assert_eq!(path(&[&[], &[]], &[0, 1]), Ok(1));
@@ -384,7 +498,8 @@ mod tests {
             });
             text.push_str(&format!("{{\n{code}\n}}\n"));
         }
-        let entries: Vec<_> = programs.iter().map(|&(place, name, _)| Reached { name, place }).collect();
+        let entries: Vec<_> =
+            programs.iter().map(|&(place, name, _)| Reached { name, function: name, place }).collect();
         Depths::new(&description, &entries, Some(&Module::read(&text)), &mut |_, _, _| {})
             .map_err(|error| error.to_string())
     }
@@ -432,7 +547,7 @@ mod tests {
     fn a_ray_type_that_is_no_constant_needs_a_depth() {
         let raygen = (Place::RayGen, "__raygen__a", "call (%r1), _optix_trace_typed_32, (%r2, %rd1);");
         let error = depths(&[raygen], [None; 2]).unwrap_err();
-        assert!(error.contains("__raygen__a is not a constant") && error.contains("trace_depth: N"), "{error}");
+        assert!(error.contains("`__raygen__a` is not a constant") && error.contains("trace_depth: N"), "{error}");
         assert_eq!(depths(&[raygen], [Some(2), None]).unwrap().trace, 2);
     }
 
@@ -461,6 +576,17 @@ mod tests {
         let again = (Place::Direct, "__direct_callable__e__of_a_word", DIRECT_OF_A_WORD);
         let error = depths(&[raygen, upper, again], [None; 2]).unwrap_err();
         assert!(error.contains("inside of itself") && error.contains("callable_depth: N"), "{error}");
+        let error = depths(&[raygen, upper, lower], [None, Some(1)]).unwrap_err();
+        assert!(
+            error.contains("`callable_depth: 1`")
+                && error.contains("2 deep")
+                && error.contains("`__direct_callable__d` calls `__direct_callable__e__of_a_word`"),
+            "{error}"
+        );
+        // A call of itself is two deep at the least.
+        let error = depths(&[raygen, upper, again], [None, Some(1)]).unwrap_err();
+        assert!(error.contains("2 deep") && error.contains("state 2"), "{error}");
+        assert_eq!(depths(&[raygen, upper, again], [None, Some(2)]).unwrap().direct_from_state, 2);
         // Nothing calls it.
         assert_eq!(depths(&[upper, again], [None; 2]).unwrap().direct_from_state, 0);
     }
@@ -477,5 +603,48 @@ mod tests {
         assert!(error.contains("recursively") && error.contains("trace_depth: N"), "{error}");
         let found = depths(&[raygen, continuation, again], [Some(5), None]).unwrap();
         assert_eq!((found.trace, found.trace_is_a_promise), (5, true));
+    }
+
+    #[test]
+    fn a_stated_trace_depth_is_compared_with_the_programs() {
+        let raygen = (Place::RayGen, "__raygen__a", TRACE_RAY);
+        let silent = (Place::Shading(0), "__miss__b", "");
+        // More than needed is taken, and can't be exceeded.
+        for stated in [None, Some(1), Some(7)] {
+            let found = depths(&[raygen, silent], [stated, None]).unwrap();
+            assert_eq!((found.trace, found.trace_is_a_promise), (stated.unwrap_or(1), false));
+        }
+        let error = depths(&[raygen, silent], [Some(0), None]).unwrap_err();
+        assert!(error.contains("`trace_depth: 0`") && error.contains("`__raygen__a` traces `Bounce`"), "{error}");
+        // By a callable.
+        let calls = (Place::RayGen, "__raygen__a", CONTINUATION);
+        let callable = (Place::Continuation, "__continuation_callable__c", TRACE_RAY);
+        let error = depths(&[calls, callable, silent], [Some(0), None]).unwrap_err();
+        assert!(error.contains("`__continuation_callable__c` traces `Bounce`"), "{error}");
+        // Without an end, one step has to be possible.
+        let again = (Place::Shading(0), "__closesthit__d", TRACE_RAY);
+        let error = depths(&[raygen, silent, again], [Some(1), None]).unwrap_err();
+        for part in [
+            "`trace_depth: 1`",
+            "2 deep",
+            "`__raygen__a` traces `Bounce`, `__closesthit__d` traces `Bounce`",
+            "state 2",
+        ] {
+            assert!(error.contains(part), "no `{part}` in: {error}");
+        }
+        let found = depths(&[raygen, silent, again], [Some(2), None]).unwrap();
+        assert_eq!((found.trace, found.trace_is_a_promise), (2, true));
+    }
+
+    #[test]
+    fn shortest_ways_to_each_step() {
+        let set = |items: &[usize]| items.iter().copied().collect::<BTreeSet<_>>();
+        let path = |edges: &[&[usize]], roots: &[usize]| {
+            shortest(&edges.iter().map(|e| set(e)).collect::<Vec<_>>(), &set(roots))
+        };
+        assert_eq!(path(&[&[0]], &[0]), [0, 0]);
+        assert_eq!(path(&[&[1], &[2], &[0]], &[0]), [0, 1, 2, 0]);
+        assert_eq!(path(&[&[1, 2], &[2], &[]], &[0]), [0, 1, 2]);
+        assert_eq!(path(&[&[1], &[1]], &[]), [0; 0]);
     }
 }

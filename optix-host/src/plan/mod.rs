@@ -32,11 +32,6 @@ impl Graph {
             _ => Self::Any,
         }
     }
-
-    /// Whether a root with so many levels of instances may be traced against.
-    pub fn allows(self, depth: u32) -> bool {
-        self == Self::Any || self == Self::of_depth(depth)
-    }
 }
 
 impl fmt::Display for Graph {
@@ -199,6 +194,24 @@ impl Plan {
         })
     }
 
+    /// Whether a root with so many levels of instances may be traced against; why not.
+    pub fn allows(&self, depth: u32) -> Result<(), String> {
+        let planned = self.graph_depth - 1;
+        match self.graph {
+            _ if depth > planned => Err(format!(
+                "it traces against a graph with {depth} levels of instances, but the pipeline was specialised to {}, the \
+                 deepest that the scene had then ({planned}): build the pipeline after the acceleration structures",
+                self.graph
+            )),
+            Graph::SingleLevelInstancing if depth == 0 => Err(
+                "it traces against a GAS, but the scene has an IAS, so the pipeline is specialised to rays that are traced against \
+                 an IAS: put the GAS into one (`scene.ias([gas.at(Affine3A::IDENTITY)])`) and trace against that"
+                    .into(),
+            ),
+            _ => Ok(()),
+        }
+    }
+
     pub fn explanation(&self) -> Explanation {
         Explanation { pipeline: self.description.name, notes: self.notes.clone(), device: Vec::new() }
     }
@@ -275,6 +288,7 @@ fn exceptions(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use optix_device_rs::host::{ExceptionsDescription, ParamsDescription};
 
     const PTX: &str = "\
 .visible .const .align 8 .b8 p[16];
@@ -322,7 +336,52 @@ mod tests {
 
     #[test]
     fn graphs_by_depth() {
-        assert!(Graph::of_depth(1).allows(1) && !Graph::of_depth(1).allows(0));
-        assert!(Graph::of_depth(3).allows(0) && Graph::of_depth(3).allows(2));
+        for planned in 0..4 {
+            let plan = Plan { graph: Graph::of_depth(planned), graph_depth: planned + 1, ..plan() };
+            for depth in 0..6 {
+                let refused = plan.allows(depth).err();
+                assert_eq!(refused.is_some(), depth > planned || planned == 1 && depth == 0, "{depth} in {planned}");
+                if let Some(why) = refused {
+                    assert!(why.contains(if depth == 0 {
+                        "put the GAS into one"
+                    } else {
+                        "after the acceleration structures"
+                    }));
+                }
+            }
+        }
+    }
+
+    /// Of no programs.
+    fn plan() -> Plan {
+        let params = ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[], fingerprint: 0 };
+        Plan {
+            description: PipelineDescription {
+                name: "Test",
+                params,
+                raygen: &[],
+                rays: &[],
+                hitgroups: &[],
+                callables: &[],
+                exceptions: ExceptionsDescription { throws: None, variants: &[], program: None },
+                trace_depth: None,
+                callable_depth: None,
+            },
+            kinds: Vec::new(),
+            graph: Graph::Any,
+            graph_depth: 1,
+            attribute_words: 2,
+            depths: Depths {
+                trace: 0,
+                trace_is_a_promise: false,
+                continuation: 0,
+                direct_from_traversal: 0,
+                direct_from_state: 0,
+            },
+            exceptions: Exceptions::default(),
+            bound: Vec::new(),
+            ptx: None,
+            notes: Vec::new(),
+        }
     }
 }
