@@ -79,9 +79,8 @@ pub struct Field {
 /// Some of the fields of a payload: those that one party reads or writes.
 ///
 /// # Safety
-/// `load` and `store` touch the words of `FIELDS` and no others, and of those the first 32 are in `MASK`. Every field is
-/// [`Words`](crate::words::Words), so a copy of a part is as good as the part.
-pub unsafe trait Part: Sized {
+/// `load` and `store` touch the words of `FIELDS` and no others, and of those the first 32 are in `MASK`.
+pub unsafe trait Part: Copy {
     /// How its payload travels.
     type Transport: Transport;
     /// The part's fields: indices into [`Payload::FIELDS`].

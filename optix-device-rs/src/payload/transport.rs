@@ -33,8 +33,8 @@ pub trait Transport: 'static {
     #[doc(hidden)]
     #[inline(always)]
     unsafe fn give<From: Part>(cx: &Cx, given: &From) {
-        // SAFETY: the caller's; and parts may be copied (`Part`).
-        unsafe { core::ptr::read(given).store(Self::memory(cx)) };
+        // SAFETY: the caller's.
+        given.store(unsafe { Self::memory(cx) });
     }
 }
 

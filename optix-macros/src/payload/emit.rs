@@ -297,22 +297,17 @@ fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
             }
         }
     };
-    // What can't be copied is no `Words`, which is reported once, where the field is.
-    let bounds = fields.iter().map(|field| {
-        let ty = &field.ty;
-        quote!(for<'__never> #ty: ::core::marker::Copy)
-    });
-    let bounds = quote!(#(#bounds,)*);
+    // One error of a field that can't be copied, where derives would give two.
     let copies = quote! {
         #[automatically_derived]
-        impl ::core::clone::Clone for #ident where #bounds {
+        impl ::core::clone::Clone for #ident {
             #[inline(always)]
             fn clone(&self) -> Self {
                 *self
             }
         }
         #[automatically_derived]
-        impl ::core::marker::Copy for #ident where #bounds {}
+        impl ::core::marker::Copy for #ident {}
     };
     let unread = unread(payload, part);
     quote! {

@@ -51,24 +51,4 @@ mod payload_field_not_copy {
     }
 }
 
-mod payload_field_words_not_copy {
-    use optix_device_rs::prelude::*;
-
-    #[derive(Clone, Copy, Words)]
-    pub struct Spectrum {
-        pub bands: [f32; 4],
-    }
-
-    #[derive(Payload)]
-    pub struct Radiance {
-        #[payload(write(closesthit, miss), read(caller))]
-        pub light: Spectrum,
-    }
-
-    #[miss]
-    pub fn dark<P: Pipeline>(_: &Miss<P>) -> RadianceFromMiss {
-        RadianceFromMiss { light: Spectrum { bands: [0.0; 4] } }
-    }
-}
-
 fn main() {}
