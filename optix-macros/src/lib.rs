@@ -65,6 +65,10 @@ use proc_macro::TokenStream;
 /// Every write has a read after it: what `closesthit` or `miss` writes the caller reads. A ray without its closest-hit program,
 /// of `trace_without_closesthit`, is only for payloads whose caller writes all that it reads.
 ///
+/// A program takes fields as they are when it begins, and what it gives is stored when it ends, after the programs that it
+/// caused. So where an intersection program and the any-hit program of its reports write the same field, the intersection
+/// program's value stays, on either machine: two fields keep both.
+///
 /// # Transport
 /// The fields travel in registers, 32 words at most (guide 14), or in the caller's local memory, whose address is in two
 /// registers; then there may be any number of them. Programs are the same either way.

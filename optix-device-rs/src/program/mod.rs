@@ -183,6 +183,10 @@ impl<P, A: Attributes> Intersection<P, A> {
     ///
     /// True if it was accepted: inside the current interval and not ignored by the any-hit program. `kind` is 0 to 127;
     /// its eighth bit is not used.
+    ///
+    /// The any-hit program runs meanwhile, on the ray's payload as the trace call, earlier reports and earlier intersection
+    /// programs left it. What this program returns is stored when it returns: over what the any-hit programs of its reports
+    /// wrote to the same fields. To count both, use two fields, or leave the field to the any-hit program.
     #[inline(always)]
     pub fn report(&self, t: f32, kind: u8, attributes: A) -> bool {
         let mut words = WordBuffer::ZERO;

@@ -3,6 +3,7 @@
 
 pub mod callables;
 pub mod queries;
+pub mod reports;
 
 use optix_device_rs::prelude::*;
 use path_tracer_shaders::ball::{self, Ball, BallHit};
