@@ -23,7 +23,7 @@
 use crate::data::DeviceData;
 use crate::machine::check;
 use crate::program::{Context, Here, InstanceHandle};
-use crate::view::Slice;
+use crate::view::{OfLaunch, Slice};
 use crate::words::{FromRaw, words_of_raw};
 use glam::Vec3;
 
@@ -35,6 +35,7 @@ use glam::Vec3;
 pub struct Instances {
     ias: u64,
     len: u64,
+    of: OfLaunch,
 }
 
 /// The triangles of a GAS.
@@ -55,7 +56,7 @@ impl FromRaw for Instances {
     type Raw = [u64; 2];
     #[inline(always)]
     unsafe fn from_raw([ias, len]: [u64; 2]) -> Self {
-        Self { ias, len }
+        Self { ias, len, of: OfLaunch::NEW }
     }
 }
 

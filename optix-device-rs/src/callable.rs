@@ -25,6 +25,7 @@
 //! ```
 
 use crate::data::DeviceData;
+use crate::view::OfLaunch;
 use crate::words::{FromRaw, Words, words_of_raw};
 use core::marker::PhantomData;
 
@@ -88,6 +89,7 @@ pub struct Callable<F, K = Direct> {
     /// Index in the callables section, of a record whose program has signature `F` and kind `K`.
     index: u32,
     types: PhantomData<fn() -> (F, K)>,
+    of: OfLaunch,
 }
 
 /// A table of callables with signature `F`, chosen by number: `frame.textures().get(i).call(hit, uv)`.
@@ -99,6 +101,7 @@ pub struct Callables<F, K = Direct> {
     first: u32,
     len: u32,
     types: PhantomData<fn() -> (F, K)>,
+    of: OfLaunch,
 }
 
 macro_rules! references {
@@ -157,7 +160,7 @@ impl<F, K> FromRaw for Callable<F, K> {
     type Raw = u32;
     #[inline(always)]
     unsafe fn from_raw(index: u32) -> Self {
-        Self { index, types: PhantomData }
+        Self { index, types: PhantomData, of: OfLaunch::NEW }
     }
 }
 
@@ -167,7 +170,7 @@ impl<F, K> FromRaw for Callables<F, K> {
     type Raw = [u32; 2];
     #[inline(always)]
     unsafe fn from_raw([first, len]: [u32; 2]) -> Self {
-        Self { first, len, types: PhantomData }
+        Self { first, len, types: PhantomData, of: OfLaunch::NEW }
     }
 }
 
@@ -207,6 +210,6 @@ impl<F, K> Callables<F, K> {
         let len = self.len;
         let message = format_args!("callable {index} is out of range: the table has {len}");
         crate::machine::check(index, len, message);
-        Callable { index: self.first + index, types: PhantomData }
+        Callable { index: self.first + index, types: PhantomData, of: OfLaunch::NEW }
     }
 }

@@ -445,7 +445,8 @@ pub const fn nothing_to_write<T: crate::payload::NothingToWrite>() {}
 
 // Owners of arrays of views: textures of a material, say.
 #[cfg(not(target_arch = "nvptx64"))]
-impl<V: crate::host::View, const N: usize> crate::host::View for [V; N]
+// SAFETY: each element keeps its own.
+unsafe impl<V: crate::host::View, const N: usize> crate::host::View for [V; N]
 where
     [V; N]: crate::data::DeviceData,
 {

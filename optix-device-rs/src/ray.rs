@@ -1,18 +1,20 @@
 //! Rays and what they are traced against (guide 13.2).
 
+use crate::view::OfLaunch;
 use crate::words::{FromRaw, Words};
 use glam::Vec3;
 
 /// A traversable: what a ray is traced against (an acceleration structure of the scene).
 ///
-/// It has no public constructor but [`Traversable::NULL`]: the host fills it in from a scene it keeps alive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// It has no public constructor but [`Traversable::NULL`]: the host fills it in from a scene it keeps alive. As a
+/// [view](crate::view), it is for the programs of launches that keep the structure.
+#[derive(Clone, Copy, PartialEq, Eq)]
 #[repr(transparent)]
-pub struct Traversable(u64);
+pub struct Traversable(u64, OfLaunch);
 
 impl Traversable {
     /// Nothing: a ray traced against it runs only its miss program (guide 13.2).
-    pub const NULL: Self = Self(0);
+    pub const NULL: Self = Self(0, OfLaunch::NEW);
 
     #[doc(hidden)]
     pub const fn to_raw(self) -> u64 {
@@ -26,7 +28,13 @@ impl FromRaw for Traversable {
     type Raw = u64;
     #[inline(always)]
     unsafe fn from_raw(handle: u64) -> Self {
-        Self(handle)
+        Self(handle, OfLaunch::NEW)
+    }
+}
+
+impl core::fmt::Debug for Traversable {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(if self.0 == 0 { "Traversable::NULL" } else { "Traversable" })
     }
 }
 
@@ -39,7 +47,7 @@ impl Words for Traversable {
     #[inline(always)]
     unsafe fn load(words: &[u32]) -> Self {
         // SAFETY: the words are of a traversable that was stored.
-        Self(unsafe { u64::load(words) })
+        unsafe { Self::from_raw(u64::load(words)) }
     }
 }
 

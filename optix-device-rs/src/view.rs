@@ -3,10 +3,18 @@
 //! An index out of range ends the launch (on the device by an access to an address that no memory can have, which costs no
 //! branch; on the CPU with an error that names the launch index); no access is to memory outside the buffer. See
 //! [below](#checks) for what that costs. Memory that programs write is shared by all launch indices: writes of one may be seen by
-//! another at any time until the launch ends (guide 6.2), but are never torn below 32 bits.
+//! another at any time until the launch ends (guide 6.2). An element that is written while it is read may arrive in parts: each
+//! aligned 32-bit word of it is of one write, or each part of the element's alignment if that is less.
 //!
 //! Views come from the host, in parameters and records, and travel in payloads and attributes, whose words are loaded only
-//! where they were stored ([`Words::load`](crate::words::Words::load)).
+//! where they were stored ([`Words::load`](crate::words::Words::load)). They are for the programs of a launch that keeps the memory:
+//! they are neither [`Send`] nor [`Sync`], so that no static keeps them and no other thread gets them, and on the CPU, where a
+//! program may keep one in a variable of its thread, a view that the running launch was not given ends the launch.
+//!
+//! ```compile_fail
+//! use optix_device_rs::prelude::*;
+//! static KEPT: std::sync::Mutex<Option<Slice<u32>>> = std::sync::Mutex::new(None);
+//! ```
 //!
 //! # Checks
 //!
@@ -20,11 +28,20 @@
 //!   with debug assertions, so the profile decides.
 
 use crate::data::DeviceData;
+#[cfg(not(target_arch = "nvptx64"))]
+use crate::host::shared;
 use crate::words::{FromRaw, words_of_raw};
 use core::marker::PhantomData;
-use core::mem::MaybeUninit;
-use core::sync::atomic::{AtomicU8, AtomicU32, Ordering::Relaxed};
 use glam::UVec2;
+
+/// Marks what is for the programs of a launch, and neither [`Send`] nor [`Sync`], so that no safe code of one launch leaves it to
+/// another: on a device nothing else stands in the way.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) struct OfLaunch(PhantomData<*const ()>);
+
+impl OfLaunch {
+    pub const NEW: Self = Self(PhantomData);
+}
 
 /// What views hold: plain data without views inside, so that no program can forge a view by writing one.
 ///
@@ -67,26 +84,17 @@ unsafe impl<T: Element, const N: usize> Element for [T; N] {}
 /// `at` is aligned for `T` and valid for reads of `T` while the call lasts.
 #[inline(always)]
 unsafe fn read<T: Element>(at: *const T) -> T {
-    if cfg!(target_arch = "nvptx64") {
-        // SAFETY: the caller's; device memory is not under Rust's host memory model (guide 6.2).
-        return unsafe { at.read() };
+    #[cfg(target_arch = "nvptx64")]
+    // SAFETY: the caller's; device memory is not under Rust's host memory model (guide 6.2).
+    return unsafe { at.read() };
+    #[cfg(not(target_arch = "nvptx64"))]
+    {
+        let mut value = core::mem::MaybeUninit::<T>::uninit();
+        // SAFETY: the caller's, and the value is nobody else's.
+        unsafe { shared::read(at.cast(), value.as_mut_ptr().cast(), size_of::<T>(), shared::width::<T>()) };
+        // SAFETY: every byte is written, and any bytes are a `T` (`Element`).
+        unsafe { value.assume_init() }
     }
-    let mut value = MaybeUninit::<T>::uninit();
-    if size_of::<T>().is_multiple_of(4) && align_of::<T>().is_multiple_of(4) {
-        let (from, to) = (at as *mut u32, value.as_mut_ptr().cast::<u32>());
-        for i in 0..size_of::<T>() / 4 {
-            // SAFETY: inside the element; aligned to 4 as `T` is.
-            unsafe { to.add(i).write(AtomicU32::from_ptr(from.add(i)).load(Relaxed)) };
-        }
-    } else {
-        let (from, to) = (at as *mut u8, value.as_mut_ptr().cast::<u8>());
-        for i in 0..size_of::<T>() {
-            // SAFETY: inside the element.
-            unsafe { to.add(i).write(AtomicU8::from_ptr(from.add(i)).load(Relaxed)) };
-        }
-    }
-    // SAFETY: every byte is written, and any bytes are a `T` (`Element`).
-    unsafe { value.assume_init() }
 }
 
 /// Copies an element into memory that other launch indices may read or write.
@@ -95,31 +103,22 @@ unsafe fn read<T: Element>(at: *const T) -> T {
 /// `at` is aligned for `T` and valid for writes of `T` while the call lasts.
 #[inline(always)]
 unsafe fn write<T: Element>(at: *mut T, value: T) {
-    if cfg!(target_arch = "nvptx64") {
-        // SAFETY: the caller's.
-        return unsafe { at.write(value) };
-    }
-    if size_of::<T>().is_multiple_of(4) && align_of::<T>().is_multiple_of(4) {
-        let (from, to) = ((&raw const value).cast::<u32>(), at.cast::<u32>());
-        for i in 0..size_of::<T>() / 4 {
-            // SAFETY: inside the element; aligned to 4 as `T` is, without padding (`Element`).
-            unsafe { AtomicU32::from_ptr(to.add(i)).store(from.add(i).read(), Relaxed) };
-        }
-    } else {
-        let (from, to) = ((&raw const value).cast::<u8>(), at.cast::<u8>());
-        for i in 0..size_of::<T>() {
-            // SAFETY: inside the element, without padding (`Element`).
-            unsafe { AtomicU8::from_ptr(to.add(i)).store(from.add(i).read(), Relaxed) };
-        }
-    }
+    #[cfg(target_arch = "nvptx64")]
+    // SAFETY: the caller's.
+    return unsafe { at.write(value) };
+    #[cfg(not(target_arch = "nvptx64"))]
+    // SAFETY: the caller's; the value has no padding (`Element`).
+    unsafe {
+        shared::write(at.cast(), (&raw const value).cast(), size_of::<T>(), shared::width::<T>())
+    };
 }
 
-/// The address of element `index` of `len` elements of type `T` at `address`.
+/// Where element `index` of `len` elements of type `T` is, in the memory that a view holds as `address`.
 #[inline(always)]
-fn element<T>(what: &str, address: u64, index: u32, len: u32) -> u64 {
+fn element<T>(what: &str, address: u64, index: u32, len: u32) -> *mut T {
     let message = format_args!("{what} index {index} is out of range: the buffer has {len} elements");
-    let element = address.wrapping_add(u64::from(index) * size_of::<T>() as u64);
-    crate::machine::address_if([(index, len)], element, message)
+    let offset = u64::from(index) * size_of::<T>() as u64;
+    crate::machine::place_if([(index, len)], address, offset, message).cast()
 }
 
 macro_rules! linear_view {
@@ -147,14 +146,9 @@ macro_rules! linear_view {
             }
         }
 
-        // SAFETY: a view is an address; what it points to is read and written with atomics on the host.
-        unsafe impl<T: Send> Send for $name<T> {}
-        // SAFETY: as above.
-        unsafe impl<T: Send + Sync> Sync for $name<T> {}
-
         /// # Safety
-        /// `len` elements at `address`, aligned for `T`, stay valid on the launching machine while programs may use
-        /// the view.
+        /// `address` is a [`Memory`](crate::host::Memory)'s, which has `len` elements, aligned for `T`, while launches that keep
+        /// it use the view.
         impl<T: Element> FromRaw for $name<T> {
             type Raw = [u64; 2];
             #[inline(always)]
@@ -190,7 +184,7 @@ macro_rules! linear_view {
             pub fn get(self, index: u32) -> T {
                 let at = element::<T>($what, self.address, index, self.len);
                 // SAFETY: in range, and `from_raw` promised `len` valid elements; otherwise no address at all.
-                unsafe { read(at as *const T) }
+                unsafe { read(at) }
             }
 
             /// The element at `index`, which is checked only where debug assertions are on.
@@ -203,7 +197,7 @@ macro_rules! linear_view {
                     return self.get(index);
                 }
                 // SAFETY: in range, says the caller, and `from_raw` promised `len` valid elements.
-                unsafe { read((self.address as *const T).add(index as usize)) }
+                unsafe { read(crate::machine::place(self.address).cast::<T>().add(index as usize)) }
             }
         }
     };
@@ -231,7 +225,7 @@ impl<T: Element> SliceMut<T> {
     pub fn set(self, index: u32, value: T) {
         let at = element::<T>("SliceMut", self.address, index, self.len);
         // SAFETY: in range, and `from_raw` promised `len` valid elements; otherwise no address at all.
-        unsafe { write(at as *mut T, value) }
+        unsafe { write(at, value) }
     }
 
     /// Sets the element at `index`, which is checked only where debug assertions are on.
@@ -244,7 +238,7 @@ impl<T: Element> SliceMut<T> {
             return self.set(index, value);
         }
         // SAFETY: in range, says the caller, and `from_raw` promised `len` valid elements.
-        unsafe { write((self.address as *mut T).add(index as usize), value) }
+        unsafe { write(crate::machine::place(self.address).cast::<T>().add(index as usize), value) }
     }
 }
 
@@ -270,11 +264,6 @@ impl<T> core::fmt::Debug for SliceMut2d<T> {
         write!(f, "SliceMut2d({} x {} elements)", self.width, self.height)
     }
 }
-
-// SAFETY: a view is an address; what it points to is read and written with atomics on the host.
-unsafe impl<T: Send> Send for SliceMut2d<T> {}
-// SAFETY: as above.
-unsafe impl<T: Send + Sync> Sync for SliceMut2d<T> {}
 
 /// # Safety
 /// `width * height` elements at `address`, aligned for `T`, stay valid on the launching machine while programs may use the
@@ -305,8 +294,8 @@ impl<T: Element> SliceMut2d<T> {
         let message =
             format_args!("({}, {}) is out of range: the array has {} x {} elements", at.x, at.y, size.x, size.y);
         let index = u64::from(at.y) * u64::from(size.x) + u64::from(at.x);
-        let element = self.address.wrapping_add(index.wrapping_mul(size_of::<T>() as u64));
-        crate::machine::address_if([(at.x, size.x), (at.y, size.y)], element, message) as *mut T
+        let offset = index.wrapping_mul(size_of::<T>() as u64);
+        crate::machine::place_if([(at.x, size.x), (at.y, size.y)], self.address, offset, message).cast()
     }
 
     /// The element in column `at.x` of row `at.y`. A place outside ends the launch.

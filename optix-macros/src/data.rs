@@ -132,7 +132,7 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
                 impl #krate::data::Plain for #ident #copy {}
                 #[cfg(not(target_arch = "nvptx64"))]
                 #[automatically_derived]
-                impl #krate::host::Twin for #ident #copy {
+                unsafe impl #krate::host::Twin for #ident #copy {
                     type Device = #ident;
                     #[inline]
                     fn lower(&self, _: &mut #krate::host::KeepAlive) -> #ident {
@@ -220,14 +220,14 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
                 }
             }
             #[automatically_derived]
-            impl #krate::host::Twin for #host #bounds {
+            unsafe impl #krate::host::Twin for #host #bounds {
                 type Device = #ident;
                 fn lower(&self, __keep: &mut #krate::host::KeepAlive) -> #ident {
                     #lowered
                 }
             }
             #[automatically_derived]
-            impl #krate::host::View for #ident #bounds {
+            unsafe impl #krate::host::View for #ident #bounds {
                 type Owner = #host;
                 fn of(__owner: &#host, __keep: &mut #krate::host::KeepAlive) -> Self {
                     #krate::host::Twin::lower(__owner, __keep)

@@ -61,7 +61,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
             impl #krate::data::Plain for #ident {}
             #[cfg(not(target_arch = "nvptx64"))]
             #[automatically_derived]
-            impl #krate::host::Twin for #ident {
+            unsafe impl #krate::host::Twin for #ident {
                 type Device = #ident;
                 #[inline]
                 fn lower(&self, _: &mut #krate::host::KeepAlive) -> #ident {

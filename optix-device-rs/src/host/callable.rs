@@ -1,6 +1,6 @@
 //! What an application holds of a callable: the host twins of `Callable` and `Callables`.
 
-use super::{DeviceId, KeepAlive, View};
+use super::{DeviceId, KeepAlive, Kept, View};
 use crate::callable::{Callable, CallableKind, Callables, Signature};
 use crate::words::FromRaw;
 use core::marker::PhantomData;
@@ -30,8 +30,7 @@ struct Range {
 
 impl Range {
     fn keep(&self, keep: &mut KeepAlive) {
-        keep.devices.push((self.device, "callable"));
-        keep.owners.push(self.scene.clone());
+        keep.keep(Kept::Callables(self.device, self.scene.clone()));
     }
 }
 
@@ -96,7 +95,8 @@ impl<F, K> CallableTable<F, K> {
     }
 }
 
-impl<F: Signature, K: CallableKind> View for Callable<F, K> {
+// SAFETY: the scene that has the records is kept.
+unsafe impl<F: Signature, K: CallableKind> View for Callable<F, K> {
     type Owner = CallableRecord<F, K>;
     fn of(owner: &CallableRecord<F, K>, keep: &mut KeepAlive) -> Self {
         owner.range.keep(keep);
@@ -105,7 +105,8 @@ impl<F: Signature, K: CallableKind> View for Callable<F, K> {
     }
 }
 
-impl<F: Signature, K: CallableKind> View for Callables<F, K> {
+// SAFETY: the scene that has the records is kept.
+unsafe impl<F: Signature, K: CallableKind> View for Callables<F, K> {
     type Owner = CallableTable<F, K>;
     fn of(owner: &CallableTable<F, K>, keep: &mut KeepAlive) -> Self {
         owner.range.keep(keep);

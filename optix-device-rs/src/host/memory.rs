@@ -22,11 +22,15 @@ impl core::fmt::Display for MemoryError {
 }
 impl std::error::Error for MemoryError {}
 
-/// An allocation on a device; copies are ordered with the device's launches.
-pub trait Memory: Any + Send + Sync {
+/// An allocation on a device; copies are ordered with the device's launches. For backends.
+///
+/// # Safety
+/// Programs of `device` that are given `address` in a view may read and write [`Memory::byte_len`] bytes there while this value
+/// lives, from launches that keep it; `read` writes all of the bytes it is given.
+pub unsafe trait Memory: Any + Send + Sync {
     /// Whose it is.
     fn device(&self) -> DeviceId;
-    /// The address that programs on that device use.
+    /// What views on that device hold: an address on a GPU, a [`Handle`](super::Handle)'s number on the CPU.
     fn address(&self) -> u64;
     /// Bytes.
     fn byte_len(&self) -> usize;
@@ -57,14 +61,14 @@ impl<T> core::fmt::Debug for Buffer<T> {
 }
 
 impl<T: Element> Buffer<T> {
-    /// From an allocation of at least `len` elements, aligned for `T`; for backends.
+    /// For backends.
     ///
-    /// # Panics
-    /// If the allocation is too small or misaligned.
+    /// # Safety
+    /// The allocation has room for `len` elements and is aligned for them; any bytes in it are elements. Where programs run on
+    /// the CPU, all buffers of an allocation have elements of one width ([`shared::width`](super::shared::width)).
     #[doc(hidden)]
-    pub fn from_memory(memory: Arc<dyn Memory>, len: usize) -> Self {
-        assert!(memory.byte_len() >= len * size_of::<T>(), "allocation too small");
-        assert!(len == 0 || memory.address().is_multiple_of(align_of::<T>() as u64), "allocation misaligned");
+    pub unsafe fn from_memory(memory: Arc<dyn Memory>, len: usize) -> Self {
+        debug_assert!(len.checked_mul(size_of::<T>()).is_some_and(|bytes| bytes <= memory.byte_len()));
         Self { memory, len, elements: PhantomData }
     }
 
@@ -87,6 +91,7 @@ impl<T: Element> Buffer<T> {
     /// Copies all elements to the host, after the launches that were begun before.
     pub fn read(&self) -> Result<Vec<T>, MemoryError> {
         let mut elements: Vec<T> = Vec::with_capacity(self.len);
+        // Fits: the allocation has room for them.
         let bytes = self.len * size_of::<T>();
         // SAFETY: the vector's memory, zeroed so that the slice is of initialised bytes.
         let target = unsafe {
@@ -202,7 +207,8 @@ impl TriangleTable {
 pub struct World {
     pub(super) handle: u64,
     pub(super) device: DeviceId,
-    pub(super) owner: Arc<dyn Any + Send + Sync>,
+    pub(super) machine: Arc<dyn Any + Send + Sync>,
+    pub(super) scene: Arc<dyn Any + Send + Sync>,
 }
 
 impl core::fmt::Debug for World {
@@ -212,9 +218,31 @@ impl core::fmt::Debug for World {
 }
 
 impl World {
-    /// For backends: `owner` keeps `handle` alive on `device`.
+    /// For scenes. `machine` is the backend's own, which keeps `handle` alive on `device`; `scene` is what a launch asks whether
+    /// it may trace rays against the structure.
+    ///
+    /// # Safety
+    /// `handle` is of an acceleration structure on `device` for as long as `machine` lives, and `scene` tells truly which
+    /// records it needs.
     #[doc(hidden)]
-    pub fn new(handle: u64, device: DeviceId, owner: Arc<dyn Any + Send + Sync>) -> Self {
-        Self { handle, device, owner }
+    pub unsafe fn new(
+        handle: u64,
+        device: DeviceId,
+        machine: Arc<dyn Any + Send + Sync>,
+        scene: Arc<dyn Any + Send + Sync>,
+    ) -> Self {
+        Self { handle, device, machine, scene }
+    }
+
+    /// The backend's own structure.
+    #[doc(hidden)]
+    pub fn machine(&self) -> &Arc<dyn Any + Send + Sync> {
+        &self.machine
+    }
+
+    /// What [`World::new`] was given as `scene`, if it is a `T`.
+    #[doc(hidden)]
+    pub fn scene<T: Any>(&self) -> Option<&T> {
+        self.scene.downcast_ref()
     }
 }

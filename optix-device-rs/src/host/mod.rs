@@ -6,6 +6,8 @@ mod description;
 pub mod end;
 mod frame;
 mod memory;
+mod reach;
+pub mod shared;
 mod twin;
 
 pub use crate::attributes::GeometryKind;
@@ -17,4 +19,6 @@ pub use description::{
 };
 pub use frame::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState, PayloadWatch};
 pub use memory::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, MemoryError, TriangleTable, World};
-pub use twin::{KeepAlive, Twin, View};
+pub(crate) use reach::memory;
+pub use reach::{ByHandle, Handle, Reach};
+pub use twin::{KeepAlive, Kept, Twin, View};

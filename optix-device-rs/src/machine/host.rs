@@ -83,13 +83,25 @@ pub fn check(index: u32, len: u32, message: core::fmt::Arguments<'_>) {
     }
 }
 
-/// The address, if each index is below its length; otherwise ends the program with this message.
+/// The place `offset` bytes into the memory of a view, if each index is below its length; otherwise ends the program with this
+/// message.
 #[inline(always)]
-pub fn address_if<const N: usize>(in_range: [(u32, u32); N], address: u64, message: core::fmt::Arguments<'_>) -> u64 {
+pub fn place_if<const N: usize>(
+    in_range: [(u32, u32); N],
+    view: u64,
+    offset: u64,
+    message: core::fmt::Arguments<'_>,
+) -> *mut u8 {
     for (index, len) in in_range {
         check(index, len, message);
     }
-    address
+    place(view).wrapping_add(offset as usize)
+}
+
+/// Where the memory of a view begins; ends the program if it is no view of the running launch.
+#[inline(always)]
+pub fn place(view: u64) -> *mut u8 {
+    crate::host::memory(view).as_ptr()
 }
 
 /// The 64-bit value of two words.

@@ -6,7 +6,7 @@
 mod ptx;
 #[cfg(target_arch = "nvptx64")]
 pub use ptx::{
-    Cx, ParamsBase, UNWRITTEN, address_if, approximate, check, is_back_face, load_param, primitive_type_of, trap,
+    Cx, ParamsBase, UNWRITTEN, approximate, check, is_back_face, load_param, place, place_if, primitive_type_of, trap,
     unwritten, wide,
 };
 
@@ -14,7 +14,7 @@ pub use ptx::{
 mod host;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use host::{
-    Cx, ParamsBase, UNWRITTEN, address_if, check, is_back_face, load_param, primitive_type_of, unwritten, wide,
+    Cx, ParamsBase, UNWRITTEN, check, is_back_face, load_param, place, place_if, primitive_type_of, unwritten, wide,
 };
 
 /// The arguments of a trace call but for the payload, all derived from the ray and the ray type.

@@ -42,12 +42,24 @@ pub fn check(index: u32, len: u32, _: core::fmt::Arguments<'_>) {
     }
 }
 
-/// The address, if each index is below its length; otherwise one that no memory has (addresses have 49 bits), so that an
-/// access ends the launch.
+/// Where the memory of a view begins.
+#[inline(always)]
+pub fn place(view: u64) -> *mut u8 {
+    view as *mut u8
+}
+
+/// The place `offset` bytes into the memory of a view, if each index is below its length; otherwise one that no memory has
+/// (addresses have 49 bits), so that an access ends the launch.
 ///
 /// Two instructions an index, and no branch: a trap takes six, and what holds launches up is the fetching of instructions.
 #[inline(always)]
-pub fn address_if<const N: usize>(in_range: [(u32, u32); N], mut address: u64, _: core::fmt::Arguments<'_>) -> u64 {
+pub fn place_if<const N: usize>(
+    in_range: [(u32, u32); N],
+    view: u64,
+    offset: u64,
+    _: core::fmt::Arguments<'_>,
+) -> *mut u8 {
+    let mut address = view.wrapping_add(offset);
     for (index, len) in in_range {
         // SAFETY: no effect but on the address.
         unsafe {
@@ -61,7 +73,7 @@ pub fn address_if<const N: usize>(in_range: [(u32, u32); N], mut address: u64, _
             )
         }
     }
-    address
+    address as *mut u8
 }
 
 /// The 64-bit value of two words.

@@ -1,0 +1,210 @@
+//! What the programs of a launch reach on the CPU: a view holds a number there, not an address, and what the number names
+//! is looked up among what the running launch keeps alive.
+//!
+//! So a program that hides a view where a later program finds it, in a variable of its thread say, has hidden a number. A
+//! launch that keeps the memory alive knows the number, and any other ends with an error that says so.
+
+use core::cell::Cell;
+use core::ptr::NonNull;
+use std::sync::{Mutex, PoisonError};
+use std::vec::Vec;
+
+/// A number that names memory or a structure while this value lives, and nothing after that.
+#[derive(Debug)]
+pub struct Handle(u64);
+
+/// Slots, so that what has a number is found by indexing: the low half of a handle is its slot and 1, the high half how
+/// often the slot was used before.
+struct Slots {
+    /// The next use of each slot.
+    uses: Vec<u32>,
+    free: Vec<u32>,
+}
+
+static SLOTS: Mutex<Slots> = Mutex::new(Slots { uses: Vec::new(), free: Vec::new() });
+
+impl Handle {
+    /// One that was not there before.
+    ///
+    /// # Panics
+    /// If 2^32 - 1 of them live.
+    pub fn issue() -> Self {
+        let mut slots = SLOTS.lock().unwrap_or_else(PoisonError::into_inner);
+        let slot = slots.free.pop().unwrap_or_else(|| {
+            let slot = u32::try_from(slots.uses.len()).expect("fewer than 2^32 buffers and structures live");
+            slots.uses.push(0);
+            slot
+        });
+        Self(u64::from(slots.uses[slot as usize]) << 32 | (u64::from(slot) + 1))
+    }
+
+    /// The number; never 0.
+    pub fn number(&self) -> u64 {
+        self.0
+    }
+}
+
+impl Drop for Handle {
+    fn drop(&mut self) {
+        let mut slots = SLOTS.lock().unwrap_or_else(PoisonError::into_inner);
+        let slot = slot_of(self.0);
+        // A slot that was used 2^32 times rests, so that no number comes twice.
+        if let Some(next) = slots.uses[slot].checked_add(1) {
+            slots.uses[slot] = next;
+            slots.free.push(slot as u32);
+        }
+    }
+}
+
+#[inline(always)]
+fn slot_of(number: u64) -> usize {
+    // 0 names nothing, and wraps to a slot beyond any table.
+    (number as u32).wrapping_sub(1) as usize
+}
+
+/// Things by the number that names them.
+#[derive(Clone, Debug)]
+pub struct ByHandle<T> {
+    slots: Vec<Option<(u64, T)>>,
+}
+
+impl<T> Default for ByHandle<T> {
+    fn default() -> Self {
+        Self { slots: Vec::new() }
+    }
+}
+
+impl<T: Copy> ByHandle<T> {
+    /// Adds a thing; once more changes nothing.
+    pub fn insert(&mut self, handle: &Handle, thing: T) {
+        let slot = slot_of(handle.0);
+        if slot >= self.slots.len() {
+            self.slots.resize(slot + 1, None);
+        }
+        self.slots[slot] = Some((handle.0, thing));
+    }
+
+    /// The thing of this number, if it is among these.
+    #[inline(always)]
+    pub fn get(&self, number: u64) -> Option<T> {
+        match self.slots.get(slot_of(number)) {
+            Some(&Some((of, thing))) if of == number => Some(thing),
+            _ => None,
+        }
+    }
+}
+
+/// The memory that a launch keeps alive.
+#[derive(Clone, Debug, Default)]
+pub struct Reach(ByHandle<NonNull<u8>>);
+
+// SAFETY: addresses; the memory is shared by design, and read and written with atomics only (`insert`).
+unsafe impl Send for Reach {}
+// SAFETY: as above.
+unsafe impl Sync for Reach {}
+
+std::thread_local! {
+    /// The memory of the launch whose programs run on this thread.
+    static RUNNING: Cell<Option<NonNull<Reach>>> = const { Cell::new(None) };
+}
+
+impl Reach {
+    /// Adds memory.
+    ///
+    /// # Safety
+    /// While this value or a clone of it lives, as much as the views with this handle show is there, and everybody reads and writes
+    /// it with atomics of the views' width ([`Element`](crate::view::Element)).
+    pub unsafe fn insert(&mut self, handle: &Handle, memory: NonNull<u8>) {
+        self.0.insert(handle, memory);
+    }
+
+    /// Runs programs of the launch that keeps this memory.
+    pub fn enter<R>(&self, programs: impl FnOnce() -> R) -> R {
+        struct Leave(Option<NonNull<Reach>>);
+        impl Drop for Leave {
+            fn drop(&mut self) {
+                RUNNING.set(self.0);
+            }
+        }
+        // A program may launch: then the inner launch's programs have its memory, and the outer program its own afterwards.
+        let _leave = Leave(RUNNING.replace(Some(NonNull::from(self))));
+        programs()
+    }
+}
+
+/// The memory that a view of the running program shows. Any other use of a view ends it.
+#[inline(always)]
+#[track_caller]
+pub(crate) fn memory(handle: u64) -> NonNull<u8> {
+    // SAFETY: `enter` borrows the value for as long as it stands there.
+    let running = RUNNING.get().map(|reach| unsafe { reach.as_ref() });
+    match running.and_then(|reach| reach.0.get(handle)) {
+        Some(memory) => memory,
+        None => end(running.is_some()),
+    }
+}
+
+#[cold]
+#[inline(never)]
+#[track_caller]
+fn end(running: bool) -> ! {
+    if running {
+        panic!(
+            "a view is used that this launch's parameters and records do not hold: it was kept from another launch; pass the \
+             buffer to this one"
+        );
+    }
+    panic!("a view of device memory is used outside of a launch: read the buffer with `Buffer::read`");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ends(what: impl FnOnce() + std::panic::UnwindSafe) -> std::string::String {
+        let panic = std::panic::catch_unwind(what).unwrap_err();
+        match panic.downcast::<&'static str>() {
+            Ok(text) => (*text).into(),
+            Err(panic) => *panic.downcast().unwrap(),
+        }
+    }
+
+    #[test]
+    fn a_number_never_comes_twice() {
+        let mut seen = std::collections::HashSet::new();
+        for round in 0..100 {
+            let handles: Vec<Handle> = (0..round % 7 + 1).map(|_| Handle::issue()).collect();
+            for handle in &handles {
+                assert!(handle.number() != 0 && seen.insert(handle.number()));
+            }
+        }
+    }
+
+    #[test]
+    fn only_the_running_launch_reaches_its_memory() {
+        let (mine, other) = (Handle::issue(), Handle::issue());
+        let mut place = 0u8;
+        let at = NonNull::from(&mut place);
+        let (mut reach, mut inner) = (Reach::default(), Reach::default());
+        // SAFETY: no view shows anything of it.
+        unsafe {
+            reach.insert(&mine, at);
+            inner.insert(&other, at);
+        }
+        assert!(ends(|| drop(memory(1))).contains("outside of a launch"));
+        let (number, foreign) = (mine.number(), other.number());
+        reach.enter(|| {
+            assert_eq!(memory(number), at);
+            for stale in [0, foreign, number + (1 << 32), u64::MAX] {
+                assert!(ends(move || drop(memory(stale))).contains("kept from another launch"), "{stale:x}");
+            }
+            inner.enter(|| {
+                assert_eq!(memory(foreign), at);
+                assert!(ends(move || drop(memory(number))).contains("kept from another launch"));
+            });
+            assert_eq!(memory(number), at);
+        });
+        let _ = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| reach.enter(|| panic!("a program"))));
+        assert!(ends(move || drop(memory(number))).contains("outside of a launch"));
+    }
+}
