@@ -5,7 +5,7 @@ use crate::Result;
 use crate::plan::Plan;
 use crate::sbt::ShaderBindingTable;
 use crate::scene::{GeometryData, InstanceFlags};
-use optix_device_rs::host::{DeviceId, GeometryKind, Memory};
+use optix_device_rs::host::{DeviceId, GeometryKind, Kept, Memory};
 use std::any::Any;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -16,20 +16,21 @@ pub(crate) trait Backend: Any + Send + Sync {
     fn id(&self) -> DeviceId;
     /// Takes what the machine complained about since the last call.
     fn take_complaints(&self) -> Vec<String>;
-    /// Allocates zeroed memory.
-    fn allocate(&self, bytes: usize) -> Result<Arc<dyn Memory>>;
+    /// Allocates zeroed memory for elements that the CPU accesses `width` bytes at a time
+    /// ([`shared::width`](optix_device_rs::host::shared::width)).
+    fn allocate(&self, bytes: usize, width: usize) -> Result<Arc<dyn Memory>>;
     /// Builds a geometry acceleration structure.
     fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel>;
     /// Builds an instance acceleration structure.
     fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel>;
-    /// Makes a pipeline ready to launch.
-    fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable) -> Result<Box<dyn Linked>>;
+    /// Makes a pipeline ready to launch. `kept` is what the table's records point to, which the pipeline keeps.
+    fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable, kept: &[Kept]) -> Result<Box<dyn Linked>>;
 }
 
 /// A pipeline that is ready to launch.
 pub(crate) trait Linked: Send {
-    /// Begins a launch; `params` are the bytes of the parameter struct.
-    fn launch(&self, raygen: usize, params: &[u8], dimensions: [u32; 3]) -> Result<Box<dyn Running>>;
+    /// Begins a launch; `params` are the bytes of the parameter struct, and `kept` is what they point to, which the launch keeps.
+    fn launch(&self, raygen: usize, params: &[u8], kept: &[Kept], dimensions: [u32; 3]) -> Result<Box<dyn Running>>;
     /// What the machine says of the pipeline: sizes, registers, log.
     fn details(&self) -> Vec<String>;
 }

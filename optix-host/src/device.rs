@@ -4,7 +4,7 @@ use crate::backend::Backend;
 use crate::cpu::CpuBackend;
 use crate::optix::OptixBackend;
 use crate::{Error, Result};
-use optix_device_rs::host::{Buffer, Buffer2d};
+use optix_device_rs::host::{Buffer, Buffer2d, shared};
 use optix_device_rs::prelude::Element;
 use std::sync::Arc;
 
@@ -112,11 +112,14 @@ impl Device {
         let bytes = len.checked_mul(size_of::<T>()).ok_or_else(|| {
             Error::Scene(format!("a buffer of {len} elements of {} bytes is larger than memory", size_of::<T>()))
         })?;
-        Ok(Buffer::from_memory(self.backend.allocate(bytes)?, len))
+        let memory = self.backend.allocate(bytes, shared::width::<T>())?;
+        // SAFETY: as many bytes as the elements have, aligned to 16 and more, zeroed, and nobody else's.
+        Ok(unsafe { Buffer::from_memory(memory, len) })
     }
 
     /// A two-dimensional buffer of `size[1]` rows of `size[0]` elements, all bytes zero.
     pub fn zeroed_2d<T: Element>(&self, size: [u32; 2]) -> Result<Buffer2d<T>> {
+        // 2^32 times 2^32 elements fit 64 bits, which `usize` has wherever OptiX is.
         Ok(Buffer2d::new(self.zeroed(size[0] as usize * size[1] as usize)?, size)?)
     }
 }

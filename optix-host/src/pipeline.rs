@@ -5,13 +5,12 @@ pub use crate::plan::{Explanation, Note};
 use crate::backend::{Linked, Running};
 use crate::plan::{BoundValue, Plan};
 use crate::sbt::ShaderBindingTable;
-use crate::scene::{AccelShared, CallableShared, RecordData, Scene};
+use crate::scene::{AccelShared, CallableShared, Scene};
 use crate::{BackendKind, Device, Error, Result};
 use optix_device_rs::data::DeviceData;
-use optix_device_rs::host::{KeepAlive, Twin};
+use optix_device_rs::host::{KeepAlive, Kept, Twin};
 use optix_device_rs::params::{Bound, LaunchParams};
 use optix_device_rs::pipeline::{HasRayGen, Pipeline as PipelineType};
-use std::any::Any;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -24,7 +23,7 @@ pub struct Pipeline<P> {
     slots: u32,
     callables: u32,
     /// What the records' views point to.
-    records: Vec<Arc<dyn Any + Send + Sync>>,
+    records: Vec<Kept>,
     pipeline: PhantomData<fn(P)>,
 }
 
@@ -73,48 +72,46 @@ impl<P: PipelineType> Pipeline<P> {
         // SAFETY: the launch that is given the views keeps the owners.
         let mut keep = unsafe { KeepAlive::new() };
         let device_params = params.lower(&mut keep);
-        if let Some(what) = keep.foreign(self.device.backend.id()) {
-            return Err(error(format!("its parameters hold a {what} of another device")));
+        if let Some(kept) = keep.foreign(self.device.backend.id()) {
+            return Err(error(format!("its parameters hold a {} of another device", kept.kind())));
         }
-        for owner in keep.owners() {
-            if let Some(accel) = owner.downcast_ref::<AccelShared>() {
-                self.check_world(accel).map_err(error)?;
-            }
-            if let Some(callables) = owner.downcast_ref::<CallableShared>() {
-                self.check_callables(callables).map_err(error)?;
-            }
-        }
+        keep.kept().iter().try_for_each(|kept| self.check("its parameters hold", kept)).map_err(error)?;
         let mut bytes = vec![0; size_of::<P::Params>()];
         device_params.write_to(&mut bytes);
         for bound in &self.plan.bound {
             bound.check(&bytes).map_err(error)?;
         }
-        let running = self.linked.launch(raygen, &bytes, dimensions)?;
-        let mut owners = keep.into_owners();
-        owners.extend(self.records.iter().cloned());
-        Ok(Launch { running, done: false, _keep: owners })
+        let running = self.linked.launch(raygen, &bytes, keep.kept(), dimensions)?;
+        let mut kept = keep.into_kept();
+        kept.extend(self.records.iter().cloned());
+        Ok(Launch { running, done: false, _keep: kept })
     }
 
-    /// Whether rays may be traced against this structure with this pipeline's table and flags.
-    fn check_world(&self, accel: &AccelShared) -> Result<(), String> {
-        if accel.scene != self.scene {
-            return Err("it traces against an acceleration structure of another scene than the pipeline's".into());
+    /// Whether this pipeline's programs may use what its parameters or a record hold: its table and its flags cover that.
+    fn check(&self, holder: &str, kept: &Kept) -> Result<(), String> {
+        let made = match kept {
+            Kept::Traced(world) => world.scene::<AccelShared>().map(|accel| (accel.scene, accel.slots > self.slots)),
+            Kept::Callables(_, shared) => {
+                shared.downcast_ref::<CallableShared>().map(|table| (table.scene, table.end > self.callables))
+            }
+            Kept::Memory(_) | Kept::Read(_) => return Ok(()),
+        };
+        let kind = kept.kind();
+        match made {
+            Some((scene, _)) if scene != self.scene => {
+                return Err(format!("{holder} a {kind} of another scene than the pipeline's"));
+            }
+            None => return Err(format!("{holder} a {kind} that no scene made")),
+            Some((_, true)) => {
+                return Err(format!(
+                    "{holder} a {kind} that needs more records than the scene had when the pipeline was built: build the pipeline again"
+                ));
+            }
+            Some((_, false)) => {}
         }
-        if accel.slots > self.slots {
-            return Err("the scene got more materials after the pipeline was built: build the pipeline again".into());
-        }
-        self.plan.allows(accel.depth)
-    }
-
-    /// Whether the pipeline's table has these callables.
-    fn check_callables(&self, callables: &CallableShared) -> Result<(), String> {
-        if callables.scene != self.scene {
-            return Err("its parameters hold a callable of another scene than the pipeline's".into());
-        }
-        if callables.end > self.callables {
-            return Err("the scene got more callables after the pipeline was built: build the pipeline again".into());
-        }
-        Ok(())
+        let Kept::Traced(world) = kept else { return Ok(()) };
+        let depth = world.scene::<AccelShared>().map_or(0, |accel| accel.depth);
+        self.plan.allows(depth)
     }
 
     /// What was specialised, what was left out, and why.
@@ -157,19 +154,14 @@ impl<'s, P: PipelineType> PipelineBuilder<'s, P> {
         }
         let plan = Arc::new(Plan::new(P::DESCRIPTION, state, ptx, self.bound)?);
         let sbt = ShaderBindingTable::of(state, &plan)?;
-        let linked = device.backend.link(plan.clone(), sbt)?;
-        let records = state.materials.iter().map(|m| &m.record).chain(&state.miss).chain(&state.raygen);
-        let records = records.chain(state.callables.iter().map(|c| &c.record)).chain([&state.exception]);
-        Ok(Pipeline {
-            linked,
-            plan,
-            device,
-            scene: state.id,
-            slots: state.slots.len() as u32,
-            callables: state.callables.len() as u32,
-            records: records.flat_map(|RecordData { keep, .. }| keep.iter().cloned()).collect(),
-            pipeline: PhantomData,
-        })
+        let records: Vec<_> = state.kept().cloned().collect();
+        let linked = device.backend.link(plan.clone(), sbt, &records)?;
+        let (slots, callables) = (state.slots.len() as u32, state.callables.len() as u32);
+        let pipeline =
+            Pipeline { linked, plan, device, scene: state.id, slots, callables, records, pipeline: PhantomData };
+        let checked = pipeline.records.iter().try_for_each(|kept| pipeline.check("a record holds", kept));
+        checked.map_err(|what| Error::Pipeline { pipeline: P::DESCRIPTION.name, what })?;
+        Ok(pipeline)
     }
 }
 
@@ -178,7 +170,7 @@ impl<'s, P: PipelineType> PipelineBuilder<'s, P> {
 pub struct Launch {
     running: Box<dyn Running>,
     done: bool,
-    _keep: Vec<Arc<dyn Any + Send + Sync>>,
+    _keep: Vec<Kept>,
 }
 
 impl Launch {

@@ -1,14 +1,15 @@
 //! The CPU as a backend: it turns the scene's description into the kernel's structures and runs launches.
 
 use super::kernel::{self, AabbInput, Accel, Gas, GeometryFlags, Ias, Instance, SbtMapping, TriangleInput};
-use super::machine::{self, Job};
+use super::machine::{self, Job, Reached};
 use super::memory::CpuMemory;
 use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, IasInput, Linked, Running, next_device_id};
 use crate::plan::Plan;
 use crate::sbt::ShaderBindingTable;
 use crate::scene::GeometryData;
 use crate::{Error, Result};
-use optix_device_rs::host::{DeviceId, GeometryKind, Memory};
+use optix_device_rs::host::{DeviceId, GeometryKind, Handle, Kept, Memory};
+use std::any::Any;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The CPU.
@@ -46,8 +47,8 @@ impl Backend for CpuBackend {
         core::mem::take(&mut self.complaints.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    fn allocate(&self, bytes: usize) -> Result<Arc<dyn Memory>> {
-        Ok(Arc::new(CpuMemory::zeroed(self.id, bytes)?))
+    fn allocate(&self, bytes: usize, width: usize) -> Result<Arc<dyn Memory>> {
+        Ok(Arc::new(CpuMemory::zeroed(self.id, bytes, width)?))
     }
 
     fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel> {
@@ -61,7 +62,7 @@ impl Backend for CpuBackend {
     fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel> {
         let instances = input.instances.iter().map(|instance| {
             let child =
-                instance.child.owner.clone().downcast::<Accel>().map_err(|_| {
+                instance.child.owner.downcast_ref::<CpuAccel>().ok_or_else(|| {
                     Error::Scene("an instance is of an acceleration structure of another device".into())
                 })?;
             Ok(Instance {
@@ -70,22 +71,57 @@ impl Backend for CpuBackend {
                 sbt_offset: instance.sbt_offset,
                 visibility_mask: instance.mask,
                 flags: instance.flags,
-                child,
+                child: child.accel.clone(),
             })
         });
         Ok(built(Ias::new(instances.collect::<Result<_>>()?)?.into()))
     }
 
-    fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable) -> Result<Box<dyn Linked>> {
-        Ok(Box::new(CpuPipeline { plan, sbt, checked: self.checked, complaints: self.complaints.clone() }))
+    fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable, kept: &[Kept]) -> Result<Box<dyn Linked>> {
+        let (checked, complaints) = (self.checked, self.complaints.clone());
+        Ok(Box::new(CpuPipeline { plan, sbt, kept: kept.to_vec(), checked, complaints }))
     }
+}
+
+/// A structure, and the number that programs know it by.
+struct CpuAccel {
+    handle: Handle,
+    accel: Arc<Accel>,
 }
 
 fn built(accel: Accel) -> BuiltAccel {
     let bytes = accel.memory_bytes();
-    let owner = Arc::new(accel);
-    // The handle is the address, which the owner keeps in place.
-    BuiltAccel { handle: Arc::as_ptr(&owner).expose_provenance() as u64, owner, bytes }
+    let owner = Arc::new(CpuAccel { handle: Handle::issue(), accel: Arc::new(accel) });
+    BuiltAccel { handle: owner.handle.number(), owner, bytes }
+}
+
+/// What programs of a launch may use.
+fn reached<'a>(kept: impl IntoIterator<Item = &'a Kept>) -> Reached<'a> {
+    let mut reached = Reached::default();
+    for kept in kept {
+        match kept {
+            Kept::Memory(memory) => {
+                let memory: &dyn Any = &**memory;
+                if let Some(memory) = memory.downcast_ref::<CpuMemory>() {
+                    // SAFETY: the memory has what its buffers have (`Buffer::from_memory`), is accessed by atomics of one width, and lives
+                    // as long as `kept` is borrowed, which is until the launch is over.
+                    unsafe { reached.memory.insert(memory.handle(), memory.bytes()) };
+                }
+            }
+            Kept::Traced(world) => {
+                if let Some(built) = world.machine().downcast_ref::<CpuAccel>() {
+                    reached.traced.insert(&built.handle, &*built.accel);
+                }
+            }
+            Kept::Read(world) => {
+                if let Some(built) = world.machine().downcast_ref::<CpuAccel>() {
+                    reached.read.insert(&built.handle, &*built.accel);
+                }
+            }
+            Kept::Callables(..) => {}
+        }
+    }
+    reached
 }
 
 fn sbt_mapping(input: &BuildInput) -> SbtMapping {
@@ -119,13 +155,16 @@ fn boxes(input: &BuildInput) -> Option<AabbInput> {
 struct CpuPipeline {
     plan: Arc<Plan>,
     sbt: ShaderBindingTable,
+    /// What the records point to.
+    kept: Vec<Kept>,
     checked: bool,
     complaints: Complaints,
 }
 
 impl Linked for CpuPipeline {
-    fn launch(&self, raygen: usize, params: &[u8], dimensions: [u32; 3]) -> Result<Box<dyn Running>> {
-        let job = Job::new(&self.plan, &self.sbt, params, raygen, dimensions, self.checked);
+    fn launch(&self, raygen: usize, params: &[u8], kept: &[Kept], dimensions: [u32; 3]) -> Result<Box<dyn Running>> {
+        let reached = reached(self.kept.iter().chain(kept));
+        let job = Job::new(&self.plan, &self.sbt, params, reached, raygen, dimensions, self.checked);
         let complaints = machine::run(job)?;
         self.complaints.lock().unwrap_or_else(PoisonError::into_inner).extend(complaints);
         Ok(Box::new(Done))

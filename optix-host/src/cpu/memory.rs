@@ -1,51 +1,68 @@
 //! Host memory that programs on all threads may read and write.
 
-use optix_device_rs::host::{DeviceId, Memory, MemoryError};
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use core::cell::UnsafeCell;
+use core::ptr::NonNull;
+use optix_device_rs::host::{DeviceId, Handle, Memory, MemoryError, shared};
 
-/// Four words; device data is aligned to 16 bytes at most.
+/// Device data is aligned to 16 bytes at most.
 #[repr(C, align(16))]
-#[derive(Default)]
-struct Block([AtomicU32; 4]);
+struct Block(UnsafeCell<[u8; 16]>);
 
-/// An allocation. All accesses are relaxed atomics, on either side, so that racing ones are no worse than on a GPU.
+/// An allocation. All accesses are atomics of one width, on either side ([`shared`]).
 pub(super) struct CpuMemory {
     device: DeviceId,
+    handle: Handle,
     blocks: Box<[Block]>,
     len: usize,
+    width: usize,
 }
 
+// SAFETY: threads share bytes by atomics only (`read`, `write`, `Reach::insert`).
+unsafe impl Send for CpuMemory {}
+// SAFETY: as above.
+unsafe impl Sync for CpuMemory {}
+
 impl CpuMemory {
-    pub fn zeroed(device: DeviceId, len: usize) -> Result<Self, MemoryError> {
+    /// For elements that are accessed `width` bytes at a time: 1, 2 or 4.
+    pub fn zeroed(device: DeviceId, len: usize, width: usize) -> Result<Self, MemoryError> {
         let count = len.div_ceil(size_of::<Block>());
         let mut blocks = Vec::new();
         blocks
             .try_reserve_exact(count)
             .map_err(|_| MemoryError(format!("there is not enough memory for {len} bytes")))?;
-        blocks.resize_with(count, Block::default);
-        Ok(Self { device, blocks: blocks.into(), len })
+        blocks.resize_with(count, || Block(UnsafeCell::new([0; 16])));
+        Ok(Self { device, handle: Handle::issue(), blocks: blocks.into(), len, width })
     }
 
-    fn check(&self, offset: usize, len: usize) -> Result<(), MemoryError> {
-        match offset.checked_add(len) {
-            Some(end) if end <= self.len => Ok(()),
-            _ => Err(MemoryError(format!("{len} bytes at {offset} are outside a buffer of {} bytes", self.len))),
+    pub fn handle(&self) -> &Handle {
+        &self.handle
+    }
+
+    /// The first byte.
+    pub fn bytes(&self) -> NonNull<u8> {
+        NonNull::from(&*self.blocks).cast()
+    }
+
+    /// Where `len` bytes at `offset` begin.
+    fn place(&self, offset: usize, len: usize) -> Result<*mut u8, MemoryError> {
+        if offset.checked_add(len).is_none_or(|end| end > self.len) {
+            return Err(MemoryError(format!("{len} bytes at {offset} are outside a buffer of {} bytes", self.len)));
         }
-    }
-
-    /// The word that holds byte `at`, and the byte's place in it.
-    fn word(&self, at: usize) -> (&AtomicU32, usize) {
-        (&self.blocks[at / 16].0[at / 4 % 4], at % 4)
+        if !offset.is_multiple_of(self.width) || !len.is_multiple_of(self.width) {
+            return Err(MemoryError(format!("{len} bytes at {offset} are not whole words of {} bytes", self.width)));
+        }
+        Ok(self.bytes().as_ptr().wrapping_add(offset))
     }
 }
 
-impl Memory for CpuMemory {
+// SAFETY: views hold the handle's number, which a launch that keeps this value knows as `bytes`, with `len` bytes there.
+unsafe impl Memory for CpuMemory {
     fn device(&self) -> DeviceId {
         self.device
     }
 
     fn address(&self) -> u64 {
-        self.blocks.as_ptr().expose_provenance() as u64
+        self.handle.number()
     }
 
     fn byte_len(&self) -> usize {
@@ -53,25 +70,16 @@ impl Memory for CpuMemory {
     }
 
     fn read(&self, offset: usize, bytes: &mut [u8]) -> Result<(), MemoryError> {
-        self.check(offset, bytes.len())?;
-        for (i, byte) in bytes.iter_mut().enumerate() {
-            let (word, lane) = self.word(offset + i);
-            *byte = word.load(Relaxed).to_le_bytes()[lane];
-        }
+        let from = self.place(offset, bytes.len())?;
+        // SAFETY: inside the allocation, in whole words of its width.
+        unsafe { shared::read(from, bytes.as_mut_ptr(), bytes.len(), self.width) };
         Ok(())
     }
 
     fn write(&self, offset: usize, bytes: &[u8]) -> Result<(), MemoryError> {
-        self.check(offset, bytes.len())?;
-        let mut at = 0;
-        while at < bytes.len() {
-            let (word, lane) = self.word(offset + at);
-            let count = (4 - lane).min(bytes.len() - at);
-            let mut value = word.load(Relaxed).to_le_bytes();
-            value[lane..lane + count].copy_from_slice(&bytes[at..at + count]);
-            word.store(u32::from_le_bytes(value), Relaxed);
-            at += count;
-        }
+        let to = self.place(offset, bytes.len())?;
+        // SAFETY: as in `read`.
+        unsafe { shared::write(to, bytes.as_ptr(), bytes.len(), self.width) };
         Ok(())
     }
 }
@@ -81,14 +89,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn any_range_reads_back() {
-        let memory = CpuMemory::zeroed(DeviceId(0), 45).unwrap();
-        memory.write(3, &[1, 2, 3, 4, 5, 6, 7]).unwrap();
-        let mut bytes = [9; 12];
-        memory.read(1, &mut bytes).unwrap();
-        assert_eq!(bytes, [0, 0, 1, 2, 3, 4, 5, 6, 7, 0, 0, 0]);
-        assert_eq!(memory.address() % 16, 0);
-        assert!(memory.read(40, &mut [0; 6]).is_err());
-        assert!(memory.write(usize::MAX, &[1]).is_err());
+    fn any_range_of_whole_words_reads_back() {
+        for width in [1, 2, 4] {
+            let memory = CpuMemory::zeroed(DeviceId(0), 44, width).unwrap();
+            memory.write(2 * width, &[1, 2, 3, 4, 5, 6, 7, 8]).unwrap();
+            let mut bytes = [9; 12];
+            memory.read(width, &mut bytes).unwrap();
+            let expected = [[0; 4], [0; 4]].concat();
+            assert_eq!(bytes[..width], expected[..width]);
+            assert_eq!(bytes[width..width + 8], [1, 2, 3, 4, 5, 6, 7, 8]);
+            assert_eq!(memory.bytes().as_ptr().addr() % 16, 0);
+            assert!(memory.read(40, &mut [0; 8]).is_err());
+            assert!(memory.write(usize::MAX, &[1]).is_err());
+            assert_eq!(memory.write(1, &[1; 4]).is_err(), width > 1);
+        }
+        assert!(CpuMemory::zeroed(DeviceId(0), isize::MAX as usize, 1).is_err());
     }
 }

@@ -12,7 +12,7 @@ use crate::plan::{Graph, Plan};
 use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
 use crate::scene::GeometryData;
 use crate::{Error, OptixOptions, Result};
-use optix_device_rs::host::{self as device, DeviceId, GeometryKind, Memory, MemoryError};
+use optix_device_rs::host::{self as device, DeviceId, GeometryKind, Kept, Memory, MemoryError};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -50,7 +50,7 @@ impl Backend for OptixBackend {
         messages.filter(driver::LogMessage::is_complaint).map(|m| format!("[{}] {}", m.tag, m.text)).collect()
     }
 
-    fn allocate(&self, bytes: usize) -> Result<Arc<dyn Memory>> {
+    fn allocate(&self, bytes: usize, _: usize) -> Result<Arc<dyn Memory>> {
         Ok(Arc::new(OptixMemory { device: self.id, buffer: DeviceBuffer::zeroed(&self.context, bytes)? }))
     }
 
@@ -98,7 +98,7 @@ impl Backend for OptixBackend {
         Ok(built(Accel::instances(&self.context, &instances, &options)?))
     }
 
-    fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable) -> Result<Box<dyn Linked>> {
+    fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable, _: &[Kept]) -> Result<Box<dyn Linked>> {
         Ok(Box::new(OptixPipeline::new(&self.context, &plan, sbt)?))
     }
 }
@@ -112,7 +112,8 @@ fn memory_error(error: driver::Error) -> MemoryError {
     MemoryError(error.to_string())
 }
 
-impl Memory for OptixMemory {
+// SAFETY: the buffer has so many bytes on the GPU, and is freed after the launches that were begun before.
+unsafe impl Memory for OptixMemory {
     fn device(&self) -> DeviceId {
         self.device
     }
@@ -363,11 +364,11 @@ fn payload_types(plan: &Plan) -> Result<Vec<PayloadType>> {
 }
 
 impl Linked for OptixPipeline {
-    fn launch(&self, raygen: usize, params: &[u8], dimensions: [u32; 3]) -> Result<Box<dyn Running>> {
+    fn launch(&self, raygen: usize, params: &[u8], _: &[Kept], dimensions: [u32; 3]) -> Result<Box<dyn Running>> {
         let args = LaunchArgs { sbt: &self.table, raygen: raygen as u32, params, dims: dimensions, keep: Vec::new() };
         // SAFETY: parameters and records were lowered from the pipeline's own types, whose layout is asserted on both
         // sides; their views come from owners on this device, which `crate::Launch` and `crate::Pipeline` hold until the
-        // launch is done; `Pipeline::check_world` refuses structures that the options or the table do not cover, and
+        // launch is done; `Pipeline::check` refuses structures that the options or the table do not cover, and
         // `BoundValue::check` parameters that differ from bound ones.
         let launch = unsafe { self.pipeline.launch(args) }?;
         Ok(Box::new(OptixLaunch(Some(launch))))

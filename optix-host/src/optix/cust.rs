@@ -82,7 +82,8 @@ where
     // SAFETY: cust's owner keeps the memory, and shows it to the host as copies only; any bytes are a `T` (`Element`).
     let buffer = unsafe { driver::DeviceBuffer::of_other_code(&backend.context, address, bytes, buffer) }?;
     let memory: Arc<dyn Memory> = Arc::new(OptixMemory { device: crate::backend::Backend::id(backend), buffer });
-    Ok(Buffer::from_memory(memory, len))
+    // SAFETY: `count` found room for `len` elements, aligned for them, of which any bytes are one (`Element`).
+    Ok(unsafe { Buffer::from_memory(memory, len) })
 }
 
 /// A buffer's memory as cust's, which keeps it; nothing is copied. Waits for the launches that were begun before; with

@@ -15,6 +15,7 @@ use depth::{Reached, needed_entries};
 use optix_device_rs::host::{GeometryKind, PipelineDescription};
 use optix_ptx::Module;
 use std::collections::BTreeSet;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// Which traversable graphs rays meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +31,19 @@ impl Graph {
             0 => Self::SingleGas,
             1 => Self::SingleLevelInstancing,
             _ => Self::Any,
+        }
+    }
+
+    /// Of a scene with so many levels of instances, where the `world()` of structures with the levels in `taken` (bit `n`: n levels)
+    /// was taken. With the reason.
+    fn of_roots(depth: u32, taken: u32) -> (Self, String) {
+        match taken & !(1 << depth) {
+            0 => (Self::of_depth(depth), format!("{depth} levels of instances in the scene")),
+            others => {
+                let least = others.trailing_zeros();
+                let reason = format!("rays are traced against structures with {least} to {depth} levels of instances");
+                (Self::Any, reason)
+            }
         }
     }
 }
@@ -96,8 +110,8 @@ impl Plan {
         note("primitive types", names.join(", "), "the kinds of geometry in the scene's structures".into());
 
         let depth = scene.usage.depths.iter().copied().max().unwrap_or(0);
-        let graph = Graph::of_depth(depth);
-        note("traversable graph", graph.to_string(), format!("{depth} levels of instances in the scene"));
+        let (graph, reason) = Graph::of_roots(depth, scene.usage.roots.load(Relaxed));
+        note("traversable graph", graph.to_string(), reason);
         note("motion", "off".into(), "nothing in the scene moves".into());
 
         let used: BTreeSet<usize> = scene.slots.iter().map(|&(_, group)| group as usize).collect();
@@ -205,7 +219,8 @@ impl Plan {
             )),
             Graph::SingleLevelInstancing if depth == 0 => Err(
                 "it traces against a GAS, but the scene has an IAS, so the pipeline is specialised to rays that are traced against \
-                 an IAS: put the GAS into one (`scene.ias([gas.at(Affine3A::IDENTITY)])`) and trace against that"
+                 an IAS: put the GAS into one (`scene.ias([gas.at(Affine3A::IDENTITY)])`) and trace against that, or take the GAS's \
+                 `world()` before the pipeline is built, which then allows any graph"
                     .into(),
             ),
             _ => Ok(()),
@@ -336,6 +351,10 @@ mod tests {
 
     #[test]
     fn graphs_by_depth() {
+        assert_eq!(Graph::of_roots(1, 0b10).0, Graph::SingleLevelInstancing);
+        assert_eq!(Graph::of_roots(1, 0).0, Graph::SingleLevelInstancing);
+        assert_eq!(Graph::of_roots(1, 0b11).0, Graph::Any, "the GAS is traced against, too");
+        assert_eq!(Graph::of_roots(0, 0b1).0, Graph::SingleGas);
         for planned in 0..4 {
             let plan = Plan { graph: Graph::of_depth(planned), graph_depth: planned + 1, ..plan() };
             for depth in 0..6 {

@@ -7,14 +7,15 @@ use glam::Affine3A;
 use optix_device_rs::attributes::{Geometry as GeometryKindOf, Triangles};
 use optix_device_rs::host::{DeviceId, InstanceTable, TriangleTable, World};
 use optix_device_rs::pipeline::Pipeline;
-use std::any::Any;
 use std::marker::PhantomData;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Geometry with its material, to go into a GAS.
 pub struct GasMember<P, G> {
     data: Arc<GeometryData>,
-    scene: u64,
+    /// Whose material it is, per record.
+    scenes: Vec<u64>,
     /// Material and hit group per record.
     records: Vec<(u32, u32)>,
     record_of_primitive: Option<Vec<u32>>,
@@ -24,11 +25,11 @@ pub struct GasMember<P, G> {
 impl<P, G> GasMember<P, G> {
     pub(super) fn new(
         geometry: &Geometry<G>,
-        scene: u64,
+        scenes: Vec<u64>,
         records: Vec<(u32, u32)>,
         record_of_primitive: Option<Vec<u32>>,
     ) -> Self {
-        Self { data: geometry.data.clone(), scene, records, record_of_primitive, types: PhantomData }
+        Self { data: geometry.data.clone(), scenes, records, record_of_primitive, types: PhantomData }
     }
 }
 
@@ -55,8 +56,17 @@ pub(crate) struct AccelShared {
     first_slot: u32,
     /// The table has at least this many slots.
     pub slots: u32,
+    /// Of the scene's structures: see `Usage`.
+    roots: Arc<AtomicU32>,
     /// Keeps the children alive.
     _children: Vec<Arc<AccelShared>>,
+}
+
+impl AccelShared {
+    fn world(self: &Arc<Self>) -> World {
+        // SAFETY: the backend's owner keeps the handle, and this is what the scene built with it.
+        unsafe { World::new(self.built.handle, self.device, self.built.owner.clone(), self.clone()) }
+    }
 }
 
 /// A structure placed in an IAS.
@@ -107,8 +117,8 @@ impl<P> Accel<P> {
                     .into(),
             ));
         }
-        let owner: Arc<dyn Any + Send + Sync> = shared.clone();
-        Ok(World::new(shared.built.handle, shared.device, owner))
+        shared.roots.fetch_or(1 << shared.depth, Relaxed);
+        Ok(shared.world())
     }
 
     /// Bytes of the finished structure, without its children.
@@ -163,7 +173,7 @@ impl<P: Pipeline, G: GeometryKindOf> GasBuilder<'_, P, G> {
             return Err(Error::Scene("a GAS needs at least one geometry".into()));
         }
         for (i, member) in self.members.iter().enumerate() {
-            if member.scene != state.id {
+            if member.scenes.iter().any(|&scene| scene != state.id) {
                 return Err(Error::Scene(format!("geometry {i} of the GAS has a material of another scene")));
             }
             check_records(i, member)?;
@@ -192,6 +202,7 @@ impl<P: Pipeline, G: GeometryKindOf> GasBuilder<'_, P, G> {
                 depth: 0,
                 first_slot,
                 slots: state.slots.len() as u32,
+                roots: state.usage.roots.clone(),
                 _children: Vec::new(),
             }),
             pipeline: PhantomData,
@@ -210,18 +221,8 @@ impl<P: Pipeline> GasBuilder<'_, P, Triangles> {
         let accel = self.build_for(true)?;
         let counts = device.buffer(&counts)?;
         // SAFETY: built for it, with these records, each of a geometry of 2^29 triangles at the most; the buffer is nobody else's.
-        let table = unsafe { TriangleTable::new(Read::of(&accel), counts) };
+        let table = unsafe { TriangleTable::new(accel.shared.world(), counts) };
         Ok((accel, table))
-    }
-}
-
-/// What keeps a structure alive for programs that read it. They trace no rays against it, so a launch has nothing to check.
-struct Read(#[expect(dead_code, reason = "kept alive")] Arc<AccelShared>);
-
-impl Read {
-    fn of<P>(accel: &Accel<P>) -> World {
-        let shared = &accel.shared;
-        World::new(shared.built.handle, shared.device, Arc::new(Self(shared.clone())))
     }
 }
 
@@ -261,7 +262,7 @@ impl<P: Pipeline> IasBuilder<'_, P> {
             .map_err(|_| Error::Scene(format!("{} instances are more than an IAS has", self.instances.len())))?;
         let accel = self.build_for(true)?;
         // SAFETY: built for it, with so many instances.
-        let table = unsafe { InstanceTable::new(Read::of(&accel), len) };
+        let table = unsafe { InstanceTable::new(accel.shared.world(), len) };
         Ok((accel, table))
     }
 
@@ -317,6 +318,7 @@ impl<P: Pipeline> IasBuilder<'_, P> {
                 depth,
                 first_slot: 0,
                 slots: state.slots.len() as u32,
+                roots: state.usage.roots.clone(),
                 _children: self.instances.into_iter().map(|i| i.child.shared).collect(),
             }),
             pipeline: PhantomData,

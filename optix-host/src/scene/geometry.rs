@@ -202,7 +202,7 @@ impl<G: GeometryKindOf> Geometry<G> {
     where
         P: HasHitGroup<Rec, G>,
     {
-        GasMember::new(self, material.scene, vec![(material.index, material.hitgroup::<G>())], None)
+        GasMember::new(self, vec![material.scene], vec![(material.index, material.hitgroup::<G>())], None)
     }
 
     /// This geometry with a material per primitive: primitive `i` has `materials[which[i]]`.
@@ -210,8 +210,8 @@ impl<G: GeometryKindOf> Geometry<G> {
     where
         P: HasHitGroup<Rec, G>,
     {
-        let scene = materials.first().map_or(0, |m| m.scene);
+        let scenes = materials.iter().map(|m| m.scene).collect();
         let records = materials.iter().map(|m| (m.index, m.hitgroup::<G>())).collect();
-        GasMember::new(self, scene, records, Some(which))
+        GasMember::new(self, scenes, records, Some(which))
     }
 }

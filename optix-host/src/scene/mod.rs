@@ -17,15 +17,14 @@ pub(crate) use material::MaterialState;
 
 use crate::{Device, Error, Result};
 use optix_device_rs::data::DeviceData;
-use optix_device_rs::host::{GeometryKind, KeepAlive, Twin};
+use optix_device_rs::host::{GeometryKind, KeepAlive, Kept, Twin};
 use optix_device_rs::payload::Payload;
 use optix_device_rs::pipeline::{HasException, HasRay, HasRayGen, Pipeline};
 use optix_device_rs::record::SbtRecord;
-use std::any::Any;
 use std::collections::HashMap;
 use std::marker::PhantomData;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 /// A scene for pipeline `P`: it holds the records of the shader binding table and builds acceleration structures.
 pub struct Scene<P> {
@@ -64,13 +63,15 @@ pub(crate) struct Usage {
     pub kinds: Vec<GeometryKind>,
     /// Levels of instances over a GAS: of every structure that was built.
     pub depths: Vec<u32>,
+    /// Bit `n`: rays may be traced against a structure with `n` levels, since its [`World`](optix_device_rs::host::World) was taken.
+    pub roots: Arc<AtomicU32>,
 }
 
 /// A record's bytes, if it was given, and what keeps its views alive.
 #[derive(Clone, Default)]
 pub(crate) struct RecordData {
     pub bytes: Option<Vec<u8>>,
-    pub keep: Vec<Arc<dyn Any + Send + Sync>>,
+    pub keep: Vec<Kept>,
 }
 
 impl<P: Pipeline> Scene<P> {
@@ -129,22 +130,41 @@ impl<P: Pipeline> Scene<P> {
         // SAFETY: the record keeps the owners beside the bytes.
         let mut keep = unsafe { KeepAlive::new() };
         let device_data = record.lower(&mut keep);
-        if let Some(what) = keep.foreign(self.device.backend.id()) {
+        if let Some(kept) = keep.foreign(self.device.backend.id()) {
             return Err(Error::Scene(format!(
-                "a record holds a {what} of another device; make it with this scene's device"
+                "a record holds a {kind} of another device; make it with this scene's device",
+                kind = kept.kind()
             )));
         }
-        let shared = keep.owners().iter().filter_map(|owner| owner.downcast_ref::<CallableShared>());
-        if shared.into_iter().any(|callable| callable.scene != self.state.id) {
-            return Err(Error::Scene("a record holds a callable of another scene; make it with this scene".into()));
+        if let Some(kept) = keep.kept().iter().find(|kept| scene_of(kept).is_some_and(|scene| scene != self.state.id)) {
+            return Err(Error::Scene(format!(
+                "a record holds a {kind} of another scene, whose records are in another table; make it with this scene",
+                kind = kept.kind()
+            )));
         }
         let mut bytes = vec![0; size_of::<T::Device>()];
         device_data.write_to(&mut bytes);
-        Ok(RecordData { bytes: Some(bytes), keep: keep.into_owners() })
+        Ok(RecordData { bytes: Some(bytes), keep: keep.into_kept() })
+    }
+}
+
+/// Whose table the programs need that are reached through this; none if they need none.
+fn scene_of(kept: &Kept) -> Option<u64> {
+    match kept {
+        Kept::Traced(world) => Some(world.scene::<AccelShared>()?.scene),
+        Kept::Callables(_, shared) => Some(shared.downcast_ref::<CallableShared>()?.scene),
+        Kept::Memory(_) | Kept::Read(_) => None,
     }
 }
 
 impl SceneState {
+    /// What the records point to.
+    pub(crate) fn kept(&self) -> impl Iterator<Item = &Kept> {
+        let records = self.materials.iter().map(|m| &m.record).chain(&self.miss).chain(&self.raygen);
+        let records = records.chain(self.callables.iter().map(|c| &c.record)).chain([&self.exception]);
+        records.flat_map(|record| &record.keep)
+    }
+
     /// Where the records of a GAS whose build inputs have these materials begin; GASes with the same list share them.
     pub(crate) fn slots_for(&mut self, materials: Vec<Slot>) -> u32 {
         let slots = &mut self.slots;

@@ -18,6 +18,15 @@ use optix_device_rs::host::{
 use optix_device_rs::prelude::{Decision, Ray};
 use optix_device_rs::words::WordBuffer;
 
+/// Ends the launch index: a program uses what it kept from another launch.
+#[cold]
+fn not_held(what: &str) -> ! {
+    trap(format!(
+        "a {what} is used that this launch's parameters and records do not hold: it was kept from another launch; pass its structure \
+         to this one"
+    ))
+}
+
 /// What all program calls of one trace share.
 #[derive(Clone, Copy)]
 pub(super) struct Call<'c> {
@@ -220,8 +229,10 @@ impl<'c> Call<'c> {
             sbt_offset: trace.sbt_offset,
             sbt_stride: trace.sbt_stride,
         };
-        // SAFETY: a traversable is null or comes from a `World` that the launch keeps alive, of this device (checked).
-        let root = unsafe { handle::structure(trace.traversable) };
+        let root = match trace.traversable {
+            0 => None,
+            handle => Some(job.reached.traced.get(handle).unwrap_or_else(|| not_held("traversable"))),
+        };
         let Some(hit) = kernel::trace(root, &query, &mut Traversal { call: *self, ray }) else {
             if let Some(program) = &job.ray(trace.miss_index).miss {
                 let miss = trace.miss_index as usize;
@@ -275,12 +286,11 @@ impl Executor for Call<'_> {
         trap("there is no primitive, so no transform list".into())
     }
     unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
-        // SAFETY: the caller's.
-        let placed = match unsafe { handle::structure(ias) } {
+        let placed = match self.job.reached.read.get(ias) {
             Some(Accel::Ias(ias)) => ias.instances().get(index as usize),
             _ => None,
         };
-        placed.map_or_else(|| trap(format!("there is no instance {index} (guide 13.12, G073)")), handle::of)
+        placed.map_or_else(|| not_held("table of instances"), handle::of)
     }
     unsafe fn instance(&self, handle: u64) -> InstanceState {
         // SAFETY: the caller's.
@@ -295,10 +305,9 @@ impl Executor for Call<'_> {
         }
     }
     unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3] {
-        // SAFETY: the caller's.
-        let vertices = match unsafe { handle::structure(gas) } {
+        let vertices = match self.job.reached.read.get(gas) {
             Some(Accel::Gas(gas)) => gas.triangle_vertices(sbt_gas_index, primitive),
-            _ => None,
+            _ => not_held("table of triangles"),
         };
         match vertices {
             Some(vertices) => vertices.map(Vec3::from_array),

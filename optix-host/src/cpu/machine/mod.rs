@@ -18,6 +18,7 @@ mod stack;
 mod tests;
 mod traversal;
 
+use crate::cpu::kernel::Accel;
 use crate::plan::{Depths, Exceptions, Plan};
 use crate::sbt::ShaderBindingTable;
 use crate::{Error, Result};
@@ -26,7 +27,7 @@ use core::cell::Cell;
 use exceptions::Unhandled;
 use glam::UVec3;
 use optix_device_rs::host::end::{self, End};
-use optix_device_rs::host::{HitPrograms, PipelineDescription, RayDescription};
+use optix_device_rs::host::{ByHandle, HitPrograms, PipelineDescription, RayDescription, Reach};
 use rayon::prelude::*;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -34,6 +35,16 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 /// Launch indices that a thread takes at a time: few, since one may be a whole pixel's paths, and the last chunk of a
 /// launch keeps the other threads waiting; enough that taking them costs nothing beside one ray each.
 const CHUNK: u64 = 16;
+
+/// What the programs of a launch may use, by the numbers in their views.
+#[derive(Default)]
+pub(super) struct Reached<'a> {
+    pub memory: Reach,
+    /// Structures that rays are traced against: of the table's scene.
+    pub traced: ByHandle<&'a Accel>,
+    /// Structures that programs read by number.
+    pub read: ByHandle<&'a Accel>,
+}
 
 /// A launch.
 pub(super) struct Job<'a> {
@@ -43,6 +54,7 @@ pub(super) struct Job<'a> {
     sbt: &'a ShaderBindingTable,
     /// A copy of the parameters at an address that is a multiple of 16.
     params: Vec<u128>,
+    reached: Reached<'a>,
     raygen: usize,
     dimensions: UVec3,
     /// Whether programs are checked for what the guide leaves undefined; see [`checks`].
@@ -56,6 +68,7 @@ impl<'a> Job<'a> {
         plan: &'a Plan,
         sbt: &'a ShaderBindingTable,
         params: &[u8],
+        reached: Reached<'a>,
         raygen: usize,
         dimensions: [u32; 3],
         checked: bool,
@@ -65,7 +78,7 @@ impl<'a> Job<'a> {
         let Plan { description, depths, exceptions, .. } = plan;
         let (depths, exceptions, unhandled) = (*depths, *exceptions, Unhandled::default());
         let dimensions = dimensions.into();
-        Self { description, depths, exceptions, sbt, params: copy, raygen, dimensions, checked, unhandled }
+        Self { description, depths, exceptions, sbt, params: copy, reached, raygen, dimensions, checked, unhandled }
     }
 
     /// The ray type whose miss record this is.
@@ -114,7 +127,7 @@ fn run_all(job: &Job<'_>) -> Result<()> {
                 (linear / size.x % size.y) as u32,
                 (linear / (size.x * size.y)) as u32,
             );
-            if let Err(error) = run_index(job, index) {
+            if let Err(error) = job.reached.memory.enter(|| run_index(job, index)) {
                 failed.store(true, Relaxed);
                 let mut first = first.lock().unwrap_or_else(|e| e.into_inner());
                 if first.as_ref().is_none_or(|(at, _)| linear < *at) {
