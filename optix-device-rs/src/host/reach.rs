@@ -4,6 +4,7 @@
 //! So a program that hides a view where a later program finds it, in a variable of its thread say, has hidden a number. A
 //! launch that keeps the memory alive knows the number, and any other ends with an error that says so.
 
+use super::end::{self, End};
 use core::cell::Cell;
 use core::ptr::NonNull;
 use std::sync::{Mutex, PoisonError};
@@ -140,33 +141,31 @@ pub(crate) fn memory(handle: u64) -> NonNull<u8> {
     let running = RUNNING.get().map(|reach| unsafe { reach.as_ref() });
     match running.and_then(|reach| reach.0.get(handle)) {
         Some(memory) => memory,
-        None => end(running.is_some()),
+        None => not_held(running.is_some()),
     }
 }
 
 #[cold]
 #[inline(never)]
 #[track_caller]
-fn end(running: bool) -> ! {
-    if running {
-        panic!(
-            "a view is used that this launch's parameters and records do not hold: it was kept from another launch; pass the \
-             buffer to this one"
-        );
-    }
-    panic!("a view of device memory is used outside of a launch: read the buffer with `Buffer::read`");
+fn not_held(running: bool) -> ! {
+    end::end(End::Failed(if running {
+        "a view is used that this launch's parameters and records do not hold: it was kept from another launch; pass the buffer to \
+         this one"
+            .into()
+    } else {
+        "a view of device memory is used outside of a launch: read the buffer with `Buffer::read`".into()
+    }))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn ends(what: impl FnOnce() + std::panic::UnwindSafe) -> std::string::String {
-        let panic = std::panic::catch_unwind(what).unwrap_err();
-        match panic.downcast::<&'static str>() {
-            Ok(text) => (*text).into(),
-            Err(panic) => *panic.downcast().unwrap(),
-        }
+    /// What a program is told that uses a view with this number.
+    fn ends(number: u64) -> std::string::String {
+        let panic = std::panic::catch_unwind(|| memory(number)).unwrap_err();
+        *panic.downcast().unwrap()
     }
 
     #[test]
@@ -191,20 +190,20 @@ mod tests {
             reach.insert(&mine, at);
             inner.insert(&other, at);
         }
-        assert!(ends(|| drop(memory(1))).contains("outside of a launch"));
+        assert!(ends(1).contains("outside of a launch"));
         let (number, foreign) = (mine.number(), other.number());
         reach.enter(|| {
             assert_eq!(memory(number), at);
             for stale in [0, foreign, number + (1 << 32), u64::MAX] {
-                assert!(ends(move || drop(memory(stale))).contains("kept from another launch"), "{stale:x}");
+                assert!(ends(stale).contains("kept from another launch"), "{stale:x}");
             }
             inner.enter(|| {
                 assert_eq!(memory(foreign), at);
-                assert!(ends(move || drop(memory(number))).contains("kept from another launch"));
+                assert!(ends(number).contains("kept from another launch"));
             });
             assert_eq!(memory(number), at);
         });
         let _ = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| reach.enter(|| panic!("a program"))));
-        assert!(ends(move || drop(memory(number))).contains("outside of a launch"));
+        assert!(ends(number).contains("outside of a launch"));
     }
 }

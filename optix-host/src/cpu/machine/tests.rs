@@ -7,8 +7,8 @@ use crate::sbt::{HitProgram, Section};
 use glam::Vec3;
 use optix_device_rs::callable::Direct;
 use optix_device_rs::host::{
-    CallableDescription, Entry, ExceptionsDescription, Frame, GeometryKind, HitGroupDescription, ParamsDescription,
-    PayloadDescription, ProgramDescription, RayDescription, RecordLayout, TraceCall,
+    CallableDescription, Entry, ExceptionsDescription, Frame, GeometryKind, Handle, HitGroupDescription,
+    ParamsDescription, PayloadDescription, ProgramDescription, RayDescription, RecordLayout, TraceCall,
 };
 use optix_device_rs::machine::Cx;
 use optix_device_rs::payload::Field;
@@ -213,8 +213,11 @@ fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned
         Gas::triangles(vec![TriangleInput { vertices, indices: None, sbt, primitive_index_offset: 0 }])
     };
     let accel = Accel::from(gas.unwrap());
+    let handle = Handle::issue();
+    let mut reached = Reached::default();
+    reached.traced.insert(&handle, &accel);
     if script.call.traversable == 0 {
-        script.call.traversable = (&raw const accel).expose_provenance() as u64;
+        script.call.traversable = handle.number();
     }
     SCRIPT.set(Some(script));
     let none: &[u8] = &[];
@@ -231,6 +234,7 @@ fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned
         exceptions: planned.exceptions,
         sbt: &sbt,
         params: vec![0],
+        reached,
         raygen: 0,
         dimensions: UVec3::new(4, 2, 1),
         checked,
