@@ -73,7 +73,7 @@ impl<P: PipelineType> Pipeline<P> {
         let mut keep = unsafe { KeepAlive::new() };
         let device_params = params.lower(&mut keep);
         if let Some(kept) = keep.foreign(self.device.backend.id()) {
-            return Err(error(format!("its parameters hold a {} of another device", kept.kind())));
+            return Err(error(format!("its parameters hold {} of another device", kept.kind())));
         }
         keep.kept().iter().try_for_each(|kept| self.check("its parameters hold", kept)).map_err(error)?;
         let mut bytes = vec![0; size_of::<P::Params>()];
@@ -99,12 +99,12 @@ impl<P: PipelineType> Pipeline<P> {
         let kind = kept.kind();
         match made {
             Some((scene, _)) if scene != self.scene => {
-                return Err(format!("{holder} a {kind} of another scene than the pipeline's"));
+                return Err(format!("{holder} {kind} of another scene than the pipeline's"));
             }
-            None => return Err(format!("{holder} a {kind} that no scene made")),
+            None => return Err(format!("{holder} {kind} that no scene made")),
             Some((_, true)) => {
                 return Err(format!(
-                    "{holder} a {kind} that needs more records than the scene had when the pipeline was built: build the pipeline again"
+                    "{holder} {kind} that needs more records than the scene had when the pipeline was built: build the pipeline again"
                 ));
             }
             Some((_, false)) => {}

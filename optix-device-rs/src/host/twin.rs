@@ -32,12 +32,12 @@ impl Kept {
         }
     }
 
-    /// What it is, for messages.
+    /// What it is, for messages, with its article.
     pub fn kind(&self) -> &'static str {
         match self {
-            Self::Memory(_) => "buffer",
-            Self::Traced(_) | Self::Read(_) => "acceleration structure",
-            Self::Callables(..) => "callable",
+            Self::Memory(_) => "a buffer",
+            Self::Traced(_) | Self::Read(_) => "an acceleration structure",
+            Self::Callables(..) => "a callable",
         }
     }
 }

@@ -132,13 +132,13 @@ impl<P: Pipeline> Scene<P> {
         let device_data = record.lower(&mut keep);
         if let Some(kept) = keep.foreign(self.device.backend.id()) {
             return Err(Error::Scene(format!(
-                "a record holds a {kind} of another device; make it with this scene's device",
+                "a record holds {kind} of another device; make it with this scene's device",
                 kind = kept.kind()
             )));
         }
         if let Some(kept) = keep.kept().iter().find(|kept| scene_of(kept).is_some_and(|scene| scene != self.state.id)) {
             return Err(Error::Scene(format!(
-                "a record holds a {kind} of another scene, whose records are in another table; make it with this scene",
+                "a record holds {kind} of another scene, whose records are in another table; make it with this scene",
                 kind = kept.kind()
             )));
         }
