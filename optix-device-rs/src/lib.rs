@@ -57,9 +57,6 @@
 //! ```
 #![no_std]
 
-// The macros name this crate by its path, also when they are used inside it.
-extern crate self as optix_device_rs;
-
 #[cfg(not(target_arch = "nvptx64"))]
 extern crate std;
 

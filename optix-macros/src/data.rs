@@ -1,9 +1,9 @@
 //! `DeviceData`, with the host twin of structs that hold views.
 
 use crate::shape::{Form, Struct, construct};
-use crate::support::{Errors, allow, docs, moved, place_of};
+use crate::support::{Errors, block, device_crate, device_crate_outside, docs, moved, place_of};
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote, quote_spanned};
+use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::{DeriveInput, Ident};
 
 /// `#[derive(DeviceData)]`.
@@ -22,7 +22,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
 
 /// The impl of `DeviceData`: each field at its offset.
 pub fn device_data(model: &Struct) -> TokenStream {
-    let (krate, ident, allow) = (&model.krate, &model.ident, allow());
+    let (krate, ident) = (&device_crate(), &model.ident);
     let writes = model.fields.iter().map(|field| {
         let (member, ty) = (&field.member, &field.ty);
         let span = place_of(ty);
@@ -33,9 +33,9 @@ pub fn device_data(model: &Struct) -> TokenStream {
             quote_spanned!(span=> <#ty as #krate::data::Plain>::write_plain)
         };
         quote! {{
-            const __AT: ::core::primitive::usize = ::core::mem::offset_of!(#ident, #member);
+            const __AT: __core::primitive::usize = __core::mem::offset_of!(#ident, #member);
             let __field = self.#member;
-            #write(&__field, &mut __bytes[__AT..__AT + ::core::mem::size_of::<#ty>()]);
+            #write(&__field, &mut __bytes[__AT..__AT + __core::mem::size_of::<#ty>()]);
         }}
     });
     let (touch, bounds) = (touch(model), struct_bounds(model));
@@ -44,27 +44,24 @@ pub fn device_data(model: &Struct) -> TokenStream {
         let krate = moved(krate, span);
         quote_spanned!(span=> const _: () = #krate::check::view::<#ty>();)
     });
-    quote! {
-        #allow
-        const _: () = {
-            // SAFETY: the layout is C's, each field has a layout that host and device share, and padding is not written.
-            #[automatically_derived]
-            unsafe impl #krate::data::DeviceData for #ident #bounds {
-                #[inline]
-                fn write_to(&self, __bytes: &mut [::core::primitive::u8]) {
-                    #(#writes)*
-                }
+    block(quote! {
+        // SAFETY: the layout is C's, each field has a layout that host and device share, and padding is not written.
+        #[automatically_derived]
+        unsafe impl #krate::data::DeviceData for #ident #bounds {
+            #[inline]
+            fn write_to(&self, __bytes: &mut [__core::primitive::u8]) {
+                #(#writes)*
             }
-            #touch
-            #(#views)*
-        };
-    }
+        }
+        #touch
+        #(#views)*
+    })
 }
 
 /// The traits need `Copy`; where it is missing this bound makes all impls fail with one message.
 pub fn copy_bound(ident: &Ident) -> TokenStream {
     let span = place_of(ident);
-    quote_spanned!(span=> where #ident: ::core::marker::Copy)
+    quote_spanned!(span=> where #ident: __core::marker::Copy)
 }
 
 /// What reports once, at the struct's name, that it is not `Copy`; and the bound with which an impl leaves it at that. With a
@@ -72,23 +69,23 @@ pub fn copy_bound(ident: &Ident) -> TokenStream {
 pub fn must_copy(model: &Struct) -> (TokenStream, TokenStream) {
     let ident = &model.ident;
     let span = place_of(ident);
-    let krate = moved(&model.krate, span);
+    let krate = moved(&device_crate(), span);
     let assertion = quote_spanned!(span=> const _: () = #krate::check::copied::<#ident>(););
-    (assertion, quote!(where for<'__never> #ident: ::core::marker::Copy))
+    (assertion, quote!(where for<'__never> #ident: __core::marker::Copy))
 }
 
 /// [`copy_bound`], and [`view_bounds`].
 pub fn struct_bounds(model: &Struct) -> TokenStream {
-    let (copy, views) = (copy_bound(&model.ident), view_bounds(model));
+    let (copy, views) = (copy_bound(&model.ident), view_bounds(model, &device_crate()));
     quote!(#copy, #views)
 }
 
 /// What `device_data` asserts once, of each view: so nothing that is made of the struct reports it again. With a lifetime,
 /// since rustc reports a plain bound that does not hold.
-fn view_bounds(model: &Struct) -> TokenStream {
+fn view_bounds(model: &Struct, krate: &impl ToTokens) -> TokenStream {
     let bounds = model.fields.iter().filter(|field| field.view).map(|field| {
         let (ty, span) = (&field.ty, place_of(&field.ty));
-        let krate = moved(&model.krate, span);
+        let krate = moved(krate, span);
         quote_spanned!(span=> for<'__never> #ty: #krate::check::View,)
     });
     quote!(#(#bounds)*)
@@ -107,10 +104,7 @@ pub fn touch(model: &Struct) -> TokenStream {
         .collect();
     let rebuilt = construct(ident, &model.fields, &values);
     quote! {
-        #[allow(dead_code)]
-        fn __touch(__value: #ident) -> #ident {
-            #rebuilt
-        }
+        const _: fn(#ident) -> #ident = |__value| #rebuilt;
     }
 }
 
@@ -122,25 +116,22 @@ pub struct Twin {
 
 /// The struct is its own twin, or has one in which owners stand in place of views.
 pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
-    let (krate, ident, vis, allow) = (&model.krate, &model.ident, &model.vis, allow());
+    let (krate, ident, vis) = (&device_crate(), &model.ident, &model.vis);
     if !model.has_views() {
         let copy = copy_bound(ident);
-        let items = quote! {
-            #allow
-            const _: () = {
-                #[automatically_derived]
-                impl #krate::data::Plain for #ident #copy {}
-                #[cfg(not(target_arch = "nvptx64"))]
-                #[automatically_derived]
-                unsafe impl #krate::host::Twin for #ident #copy {
-                    type Device = #ident;
-                    #[inline]
-                    fn lower(&self, _: &mut #krate::host::KeepAlive) -> #ident {
-                        *self
-                    }
+        let items = block(quote! {
+            #[automatically_derived]
+            impl #krate::data::Plain for #ident #copy {}
+            #[cfg(not(target_arch = "nvptx64"))]
+            #[automatically_derived]
+            unsafe impl #krate::host::Twin for #ident #copy {
+                type Device = #ident;
+                #[inline]
+                fn lower(&self, _: &mut #krate::host::KeepAlive) -> #ident {
+                    *self
                 }
-            };
-        };
+            }
+        });
         return Twin { host: ident.clone(), items };
     }
     if model.form == Form::Tuple {
@@ -152,15 +143,17 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
         );
         return Twin { host: ident.clone(), items: TokenStream::new() };
     }
-    let (bounds, views) = (struct_bounds(model), view_bounds(model));
+    let outside = device_crate_outside();
+    let (bounds, views, views_outside) =
+        (struct_bounds(model), view_bounds(model, krate), view_bounds(model, &outside));
     let host = format_ident!("{}Host", model.name(), span = ident.span());
     let fields = model.fields.iter().map(|field| {
         let (vis, member, ty) = (&field.vis, &field.member, &field.ty);
         let docs = docs_or(&field.attrs, || format!("Field `{}` of [`{}`].", field.name(), model.name()));
         let ty = if field.view {
             let span = place_of(ty);
-            let krate = moved(krate, span);
-            quote_spanned!(span=> <#ty as #krate::host::View>::Owner)
+            let outside = moved(&outside, span);
+            quote_spanned!(span=> <#ty as #outside::host::View>::Owner)
         } else {
             quote!(#ty)
         };
@@ -171,7 +164,7 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
         .iter()
         .map(|field| {
             let member = &field.member;
-            if field.view { quote!(::core::clone::Clone::clone(&self.#member)) } else { quote!(self.#member) }
+            if field.view { quote!(__core::clone::Clone::clone(&self.#member)) } else { quote!(self.#member) }
         })
         .collect();
     let clone = construct(&host, &model.fields, &clones);
@@ -195,45 +188,43 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
         "What an application fills in for a [`{}`]: in each view's place the owner of the memory it shows.",
         model.name()
     );
+    let impls = block(quote! {
+        #[automatically_derived]
+        impl __core::clone::Clone for #host where #views {
+            fn clone(&self) -> Self {
+                #clone
+            }
+        }
+        #[automatically_derived]
+        unsafe impl #krate::host::Twin for #host #bounds {
+            type Device = #ident;
+            fn lower(&self, __keep: &mut #krate::host::KeepAlive) -> #ident {
+                #lowered
+            }
+        }
+        #[automatically_derived]
+        unsafe impl #krate::host::View for #ident #bounds {
+            type Owner = #host;
+            fn of(__owner: &#host, __keep: &mut #krate::host::KeepAlive) -> Self {
+                #krate::host::Twin::lower(__owner, __keep)
+            }
+        }
+    });
     let items = quote! {
         #[doc = #doc]
         #[cfg(not(target_arch = "nvptx64"))]
-        #[allow(missing_docs, unreachable_pub, private_interfaces, private_bounds, dead_code)]
         #vis struct #host
         where
-            #views
+            #views_outside
         {
             #(#fields,)*
         }
         // So that a crate may name the twin without asking which machine it is compiled for.
         #[doc(hidden)]
         #[cfg(target_arch = "nvptx64")]
-        #[allow(missing_docs, unreachable_pub, dead_code)]
         #vis enum #host {}
         #[cfg(not(target_arch = "nvptx64"))]
-        #allow
-        const _: () = {
-            #[automatically_derived]
-            impl ::core::clone::Clone for #host where #views {
-                fn clone(&self) -> Self {
-                    #clone
-                }
-            }
-            #[automatically_derived]
-            unsafe impl #krate::host::Twin for #host #bounds {
-                type Device = #ident;
-                fn lower(&self, __keep: &mut #krate::host::KeepAlive) -> #ident {
-                    #lowered
-                }
-            }
-            #[automatically_derived]
-            unsafe impl #krate::host::View for #ident #bounds {
-                type Owner = #host;
-                fn of(__owner: &#host, __keep: &mut #krate::host::KeepAlive) -> Self {
-                    #krate::host::Twin::lower(__owner, __keep)
-                }
-            }
-        };
+        #impls
     };
     Twin { host, items }
 }

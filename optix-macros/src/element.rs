@@ -2,7 +2,7 @@
 
 use crate::data::touch;
 use crate::shape::Struct;
-use crate::support::{Errors, allow, moved, place_of};
+use crate::support::{Errors, block, device_crate, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use syn::DeriveInput;
@@ -14,16 +14,16 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     };
     model.require_repr_c("a buffer element", &mut errors);
     let broken = !errors.is_empty();
-    let (krate, ident, allow, name) = (&model.krate, &model.ident, allow(), model.name());
+    let (krate, ident, name) = (&device_crate(), &model.ident, model.name());
     let writes = model.fields.iter().map(|field| {
         let (member, ty) = (&field.member, &field.ty);
         let span = place_of(ty);
         let krate = moved(krate, span);
         let write = quote_spanned!(span=> <#ty as #krate::view::Element>::write_element);
         quote! {{
-            const __AT: ::core::primitive::usize = ::core::mem::offset_of!(#ident, #member);
+            const __AT: __core::primitive::usize = __core::mem::offset_of!(#ident, #member);
             let __field = self.#member;
-            #write(&__field, &mut __bytes[__AT..__AT + ::core::mem::size_of::<#ty>()]);
+            #write(&__field, &mut __bytes[__AT..__AT + __core::mem::size_of::<#ty>()]);
         }}
     });
     let sizes = model.fields.iter().map(|field| {
@@ -37,20 +37,17 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
         let check = quote_spanned!(span=> check::no_padding);
         let krate = moved(krate, span);
         quote_spanned! {span=>
-            const _: () = #krate::#check(#name, ::core::mem::size_of::<#ident>(), 0 #(+ #sizes)*);
+            const _: () = #krate::#check(#name, __core::mem::size_of::<#ident>(), 0 #(+ #sizes)*);
         }
     });
     let touch = touch(&model);
     let errors = errors.into_tokens();
-    quote! {
-        #errors
-        #allow
-        const _: () = {
+    let items = block(quote! {
             // SAFETY: the layout is C's, and each field is an `Element`.
             #[automatically_derived]
             unsafe impl #krate::data::DeviceData for #ident {
                 #[inline]
-                fn write_to(&self, __bytes: &mut [::core::primitive::u8]) {
+                fn write_to(&self, __bytes: &mut [__core::primitive::u8]) {
                     #(#writes)*
                 }
             }
@@ -70,6 +67,6 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
             }
             #no_padding
             #touch
-        };
-    }
+    });
+    quote!(#errors #items)
 }

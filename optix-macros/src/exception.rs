@@ -1,14 +1,13 @@
 //! `#[derive(UserException)]`.
 
 use crate::data::copy_bound;
-use crate::support::{Errors, allow, crate_of, moved, name, place_of, ungroup};
+use crate::support::{Errors, block, device_crate, moved, name, place_of, ungroup};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
-use syn::{Data, DataEnum, DeriveInput, Ident, Index, Member, Path, Type, Variant};
+use syn::{Data, DataEnum, DeriveInput, Ident, Index, Member, Type, Variant};
 
 pub fn derive(input: &DeriveInput) -> TokenStream {
     let mut errors = Errors::default();
-    let krate = crate_of(&input.attrs, &mut errors);
     let what = "what programs throw";
     let variants = match &input.data {
         Data::Enum(DataEnum { variants, .. }) => variants,
@@ -41,18 +40,18 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     if !errors.is_empty() {
         return errors.into_tokens();
     }
-    emit(&input.ident, &krate, &variants.iter().collect::<Vec<_>>())
+    emit(&input.ident, &variants.iter().collect::<Vec<_>>())
 }
 
-fn emit(ident: &Ident, krate: &Path, variants: &[&Variant]) -> TokenStream {
-    let (allow, enum_name, copy) = (allow(), name(ident), copy_bound(ident));
+fn emit(ident: &Ident, variants: &[&Variant]) -> TokenStream {
+    let (krate, enum_name, copy) = (&device_crate(), name(ident), copy_bound(ident));
     let mut consts = TokenStream::new();
     let (mut names, mut throw, mut decode, mut most) = (Vec::new(), Vec::new(), Vec::new(), quote!(0));
     for (i, variant) in variants.iter().enumerate() {
         let (code, words) = (format_ident!("__CODE_{i}"), format_ident!("__WORDS_{i}"));
         // As rustc counts discriminants.
         let value = match (&variant.discriminant, i.checked_sub(1)) {
-            (Some((_, value)), _) => quote!({ #value } as ::core::primitive::i64),
+            (Some((_, value)), _) => quote!({ #value } as __core::primitive::i64),
             (None, Some(before)) => {
                 let before = format_ident!("__CODE_{before}");
                 quote!(#before + 1)
@@ -82,30 +81,28 @@ fn emit(ident: &Ident, krate: &Path, variants: &[&Variant]) -> TokenStream {
         let (variant_ident, variant_name, span) = (&variant.ident, name(&variant.ident), place_of(&variant.ident));
         let there = moved(krate, span);
         consts.extend(quote! {
-            const #code: ::core::primitive::i64 = #value;
-            const #words: ::core::primitive::usize = #end;
+            const #code: __core::primitive::i64 = #value;
+            const #words: __core::primitive::usize = #end;
         });
         consts.extend(quote_spanned! {span=>
             const _: () = #there::check::exception(#enum_name, #variant_name, #code, #words);
         });
-        names.push(quote!((#code as ::core::primitive::u32, #variant_name)));
+        names.push(quote!((#code as __core::primitive::u32, #variant_name)));
         throw.push(quote!(Self::#variant_ident { #(#patterns),* } => {
             #(#stores)*
-            #krate::exception::Thrower::throw::<{ #code as ::core::primitive::u32 }>(__thrower, __details)
+            #krate::exception::Thrower::throw::<{ #code as __core::primitive::u32 }>(__thrower, __details)
         }));
-        decode.push(quote!(#code => ::core::option::Option::Some(Self::#variant_ident { #(#loads),* })));
+        decode.push(quote!(#code => __core::option::Option::Some(Self::#variant_ident { #(#loads),* })));
         most = quote!(#krate::check::larger(#most, #words));
     }
-    quote! {
-        #allow
-        const _: () = {
+    block(quote! {
             #consts
             // SAFETY: `check::exception` has looked at every variant.
             #[automatically_derived]
             unsafe impl #krate::exception::UserException for #ident #copy {
-                const NAME: &'static ::core::primitive::str = #enum_name;
-                const DETAILS: ::core::primitive::usize = #most;
-                const VARIANTS: &'static [(::core::primitive::u32, &'static ::core::primitive::str)] = &[#(#names),*];
+                const NAME: &'static __core::primitive::str = #enum_name;
+                const DETAILS: __core::primitive::usize = #most;
+                const VARIANTS: &'static [(__core::primitive::u32, &'static __core::primitive::str)] = &[#(#names),*];
                 #[inline(always)]
                 #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
                 fn throw<__T: #krate::exception::Thrower>(self, __thrower: __T) -> ! {
@@ -116,15 +113,14 @@ fn emit(ident: &Ident, krate: &Path, variants: &[&Variant]) -> TokenStream {
                 }
                 #[inline(always)]
                 unsafe fn decode(
-                    __code: ::core::primitive::u32,
-                    __words: &[::core::primitive::u32],
-                ) -> ::core::option::Option<Self> {
-                    match __code as ::core::primitive::i64 {
+                    __code: __core::primitive::u32,
+                    __words: &[__core::primitive::u32],
+                ) -> __core::option::Option<Self> {
+                    match __code as __core::primitive::i64 {
                         #(#decode,)*
-                        _ => ::core::option::Option::None,
+                        _ => __core::option::Option::None,
                     }
                 }
             }
-        };
-    }
+    })
 }

@@ -5,10 +5,11 @@
 //! collected and reported together, at the words they are in, and a declaration with a mistake still gives its users
 //! what they need to compile, so that one mistake is one error.
 //!
-//! Where optix-device-rs has another name, say so with `crate = path`: `#[launch_params(crate = rt)]`,
-//! `#[closesthit(crate = rt)]`, `#[optix(crate = rt)]` beside a derive, and `crate: rt` in `pipeline!`.
+//! What they make refers to optix-device-rs, which they find under whatever name the crate has it.
 
+mod compiler;
 mod data;
+mod depth;
 mod element;
 mod exception;
 #[cfg(test)]
@@ -84,7 +85,7 @@ use proc_macro::TokenStream;
 /// }
 /// assert_eq!((Layers::WORDS, Layers::SEMANTICS.len()), (40, 2));
 /// ```
-#[proc_macro_derive(Payload, attributes(payload, optix))]
+#[proc_macro_derive(Payload, attributes(payload))]
 pub fn derive_payload(input: TokenStream) -> TokenStream {
     support::derive(input.into(), payload::derive).into()
 }
@@ -116,7 +117,7 @@ pub fn derive_payload(input: TokenStream) -> TokenStream {
 /// field; without it the field does not compile. A struct with views has a twin, `LambertHost`, with the same fields and visibilities; one
 /// without is its own. In a device build the twin's name stands for a type without values, so that `pub use
 /// materials::LambertHost;` needs no `#[cfg]`.
-#[proc_macro_derive(SbtRecord, attributes(view, optix))]
+#[proc_macro_derive(SbtRecord, attributes(view))]
 pub fn derive_sbt_record(input: TokenStream) -> TokenStream {
     support::derive(input.into(), record::derive).into()
 }
@@ -149,7 +150,7 @@ pub fn derive_sbt_record(input: TokenStream) -> TokenStream {
 /// ```
 ///
 /// The struct has `#[repr(C)]` and is `Clone` and `Copy`. Padding is written as zeros.
-#[proc_macro_derive(DeviceData, attributes(view, optix))]
+#[proc_macro_derive(DeviceData, attributes(view))]
 pub fn derive_device_data(input: TokenStream) -> TokenStream {
     support::derive(input.into(), data::derive).into()
 }
@@ -172,7 +173,7 @@ pub fn derive_device_data(input: TokenStream) -> TokenStream {
 ///
 /// The struct has `#[repr(C)]`, no padding (asserted when it is compiled), and only elements as fields: no views, no
 /// `bool`, since any bytes must be a valid value. The derive includes [`DeviceData`](macro@DeviceData).
-#[proc_macro_derive(Element, attributes(optix))]
+#[proc_macro_derive(Element)]
 pub fn derive_element(input: TokenStream) -> TokenStream {
     support::derive(input.into(), element::derive).into()
 }
@@ -189,7 +190,7 @@ pub fn derive_element(input: TokenStream) -> TokenStream {
 /// }
 /// assert_eq!(Spectrum::COUNT, 5);
 /// ```
-#[proc_macro_derive(Words, attributes(optix))]
+#[proc_macro_derive(Words)]
 pub fn derive_words(input: TokenStream) -> TokenStream {
     support::derive(input.into(), words::derive_words).into()
 }
@@ -207,7 +208,7 @@ pub fn derive_words(input: TokenStream) -> TokenStream {
 /// ```
 ///
 /// The fields take 8 words at most (guide 13.4; asserted when the struct is compiled).
-#[proc_macro_derive(Attributes, attributes(optix))]
+#[proc_macro_derive(Attributes)]
 pub fn derive_attributes(input: TokenStream) -> TokenStream {
     support::derive(input.into(), words::derive_attributes).into()
 }
@@ -234,7 +235,7 @@ pub fn derive_attributes(input: TokenStream) -> TokenStream {
 ///
 /// Codes are the variants' discriminants, from 0 to 2^30 - 1; with fields, rustc wants `#[repr(u32)]` for discriminants of
 /// one's own. A variant's fields take 8 words at most. Both are asserted when the enum is compiled.
-#[proc_macro_derive(UserException, attributes(optix))]
+#[proc_macro_derive(UserException)]
 pub fn derive_user_exception(input: TokenStream) -> TokenStream {
     support::derive(input.into(), exception::derive).into()
 }
@@ -547,7 +548,6 @@ pub fn exception(arguments: TokenStream, item: TokenStream) -> TokenStream {
 ///
 ///   Where the pipeline is built with its PTX, a depth that is less than what the programs need is an error that names the chain of
 ///   programs. Without PTX, on the CPU, a launch ends where its programs nest deeper.
-/// - `crate: path`, optional: optix-device-rs under another name.
 ///
 /// A program is the path of a function with its kind's attribute, without type arguments. "Expected type, found function" is
 /// what rustc says of one without the attribute.

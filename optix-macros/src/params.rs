@@ -2,7 +2,9 @@
 
 use crate::data::{device_data, docs_or, struct_bounds, twin};
 use crate::shape::{Field, Repr, Struct};
-use crate::support::{Errors, allow, cfg_of, crate_argument, moved, name, place, place_of};
+use crate::support::{
+    Errors, block, cfg_of, device_crate, device_crate_outside, may_begin, moved, name, no_arguments, place, place_of,
+};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
 use syn::spanned::Spanned;
@@ -10,7 +12,11 @@ use syn::{DeriveInput, Ident, Item, ItemStruct, Member};
 
 pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let mut errors = Errors::default();
-    let krate = crate_argument(arguments, "launch_params", &mut errors);
+    if !may_begin(&item, false, &mut errors) {
+        let errors = errors.into_tokens();
+        return quote!(#errors #item);
+    }
+    no_arguments(arguments, "launch_params", &mut errors);
     let mut item = match syn::parse2::<Item>(item.clone()) {
         Ok(Item::Struct(item)) => item,
         Ok(other) => {
@@ -26,11 +32,10 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
     };
     let model = Struct::parse(&DeriveInput::from(item.clone()), "a launch-parameter struct", false, &mut errors);
     strip(&mut item);
-    let Some(mut model) = model else {
+    let Some(model) = model else {
         let errors = errors.into_tokens();
         return quote!(#errors #item);
     };
-    model.krate = krate;
     check(&model, &mut errors);
     let data = device_data(&model);
     let twin = twin(&model, &mut errors);
@@ -112,13 +117,13 @@ fn ident_of(field: &Field) -> Option<&Ident> {
 }
 
 fn field_value(model: &Struct, field: &Field) -> TokenStream {
-    let (krate, ident, member, ty) = (&model.krate, &model.ident, &field.member, &field.ty);
+    let (krate, ident, member, ty) = (&device_crate(), &model.ident, &field.member, &field.ty);
     let (name, bound) = (field.name(), field.bound.is_some());
     quote! {
         #krate::params::Field {
             name: #name,
-            offset: ::core::mem::offset_of!(#ident, #member),
-            size: ::core::mem::size_of::<#ty>(),
+            offset: __core::mem::offset_of!(#ident, #member),
+            size: __core::mem::size_of::<#ty>(),
             bound: #bound,
         }
     }
@@ -126,7 +131,7 @@ fn field_value(model: &Struct, field: &Field) -> TokenStream {
 
 /// `Frame::MAX_BOUNCES` for `#[bound] max_bounces`.
 fn bounds(model: &Struct) -> TokenStream {
-    let (krate, ident, allow) = (&model.krate, &model.ident, allow());
+    let (krate, ident) = (&device_crate(), &model.ident);
     let mut checks = TokenStream::new();
     let consts: Vec<_> = model
         .fields
@@ -142,7 +147,7 @@ fn bounds(model: &Struct) -> TokenStream {
             let there = moved(krate, span);
             let check = quote_spanned!(span=> #there::check::bound_field);
             checks.extend(quote_spanned! {span=>
-                const _: () = #check(#name_there, #field_name, ::core::mem::size_of::<#ty>());
+                const _: () = #check(#name_there, #field_name, __core::mem::size_of::<#ty>());
             });
             Some(quote! {
                 #[doc = #doc]
@@ -153,24 +158,23 @@ fn bounds(model: &Struct) -> TokenStream {
     if consts.is_empty() {
         return TokenStream::new();
     }
-    quote! {
-        #allow
+    block(quote! {
         #[automatically_derived]
         impl #ident {
             #(#consts)*
         }
         #checks
-    }
+    })
 }
 
 /// What programs get from `params()`.
 fn view(model: &Struct) -> TokenStream {
-    let (krate, ident, vis, allow) = (&model.krate, &model.ident, &model.vis, allow());
+    let (krate, ident, vis) = (&device_crate(), &model.ident, &model.vis);
     let view = format_ident!("{}View", model.name(), span = ident.span());
     let methods = model.fields.iter().map(|field| {
         let (vis, member, ty) = (&field.vis, &field.member, &field.ty);
         let docs = docs_or(&field.attrs, || format!("Field `{}` of [`{}`].", field.name(), model.name()));
-        let load = quote!(#krate::machine::load_param::<#ident, #ty, { ::core::mem::offset_of!(#ident, #member) }>);
+        let load = quote!(#krate::machine::load_param::<#ident, #ty, { __core::mem::offset_of!(#ident, #member) }>);
         quote! {
             #docs
             #[inline(always)]
@@ -182,50 +186,45 @@ fn view(model: &Struct) -> TokenStream {
         }
     });
     let doc = format!("What a program sees of [`{}`]: a method for each field, which loads that field.", model.name());
-    quote! {
-        #[doc = #doc]
-        #[allow(unreachable_pub)]
-        #vis struct #view<'a> {
-            #[doc(hidden)]
-            __base: #krate::machine::ParamsBase<'a, #ident>,
-        }
-
-        #allow
+    let outside = device_crate_outside();
+    let impls = block(quote! {
         #[automatically_derived]
         impl #view<'_> {
             #(#methods)*
         }
-
-        #allow
-        const _: () = {
-            #[automatically_derived]
-            impl ::core::clone::Clone for #view<'_> {
-                #[inline(always)]
-                fn clone(&self) -> Self {
-                    *self
-                }
+        #[automatically_derived]
+        impl __core::clone::Clone for #view<'_> {
+            #[inline(always)]
+            fn clone(&self) -> Self {
+                *self
             }
-            #[automatically_derived]
-            impl ::core::marker::Copy for #view<'_> {}
-            #[automatically_derived]
-            impl<'a> ::core::convert::From<#krate::machine::ParamsBase<'a, #ident>> for #view<'a> {
-                #[inline(always)]
-                fn from(__base: #krate::machine::ParamsBase<'a, #ident>) -> Self {
-                    Self { __base }
-                }
+        }
+        #[automatically_derived]
+        impl __core::marker::Copy for #view<'_> {}
+        #[automatically_derived]
+        impl<'a> __core::convert::From<#krate::machine::ParamsBase<'a, #ident>> for #view<'a> {
+            #[inline(always)]
+            fn from(__base: #krate::machine::ParamsBase<'a, #ident>) -> Self {
+                Self { __base }
             }
-        };
+        }
+    });
+    quote! {
+        #[doc = #doc]
+        #vis struct #view<'a> {
+            #[doc(hidden)]
+            __base: #outside::machine::ParamsBase<'a, #ident>,
+        }
+        #impls
     }
 }
 
 /// `LaunchParams`, the constant-memory symbol, and the loads from it.
 fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
-    let (krate, ident, allow, name) = (&model.krate, &model.ident, allow(), model.name());
+    let (krate, ident, name) = (&device_crate(), &model.ident, model.name());
     let view = format_ident!("{}View", name, span = ident.span());
     let symbol = format!("optix_params_{name}_{}", place(ident.span(), &name));
-    let declare = format!(
-        ".visible .const .align {{a}} .b8 {symbol}[{{n}}];\n.visible .global .align 8 .b64 {symbol}_layout = {{layout}};"
-    );
+    let declare = format!(".visible .const .align {{align}} .b8 {symbol}[{{size}}];");
     let loads =
         [("long", "b64", "u64", 8usize), ("word", "b32", "u32", 4), ("half", "u16", "u16", 2), ("byte", "u8", "u8", 1)];
     let loads = loads.map(|(function, load, ty, unit)| {
@@ -237,70 +236,67 @@ fn launch_params(model: &Struct, host: &Ident) -> TokenStream {
         quote! {
             #[cfg(target_arch = "nvptx64")]
             #[inline(always)]
-            fn #function<const OFFSET: ::core::primitive::usize, const INDEX: ::core::primitive::usize>() -> ::core::primitive::#ty {
-                let __value: ::core::primitive::#register;
+            fn #function<const OFFSET: __core::primitive::usize, const INDEX: __core::primitive::usize>() -> __core::primitive::#ty {
+                let __value: __core::primitive::#register;
                 // Not `nomem`, so that no load is moved over a trace call: loading again costs less than keeping the value.
                 // SAFETY: reads from the symbol, which does not change while programs run.
                 unsafe {
-                    ::core::arch::asm!(
+                    __core::arch::asm!(
                         #load,
                         v = out(#class) __value,
                         at = const OFFSET + #unit * INDEX,
                         options(pure, readonly, nostack, preserves_flags),
                     )
                 };
-                __value as ::core::primitive::#ty
+                __value as __core::primitive::#ty
             }
         }
     });
     let address = format!("{{{{ .reg .b64 a; mov.b64 a, {symbol}; cvta.const.u64 {{v}}, a; }}}}");
     let (fields, bounds) = (model.fields.iter().map(|field| field_value(model, field)), struct_bounds(model));
-    quote! {
-        #allow
-        const _: () = {
-            // SAFETY: symbol and fields are made from the struct.
-            #[automatically_derived]
-            unsafe impl #krate::params::LaunchParams for #ident #bounds {
-                const NAME: &'static ::core::primitive::str = #name;
-                const SYMBOL: &'static ::core::primitive::str = #symbol;
-                const FIELDS: &'static [#krate::params::Field] = &[#(#fields),*];
-                type View<'a> = #view<'a>;
-                #[cfg(not(target_arch = "nvptx64"))]
-                type Host = #host;
+    let impls = block(quote! {
+        // SAFETY: symbol and fields are made from the struct.
+        #[automatically_derived]
+        unsafe impl #krate::params::LaunchParams for #ident #bounds {
+            const NAME: &'static __core::primitive::str = #name;
+            const SYMBOL: &'static __core::primitive::str = #symbol;
+            const FIELDS: &'static [#krate::params::Field] = &[#(#fields),*];
+            type View<'a> = #view<'a>;
+            #[cfg(not(target_arch = "nvptx64"))]
+            type Host = #host;
+        }
+
+        #[automatically_derived]
+        impl #krate::params::ParamsSymbol for #ident {
+            #(#loads)*
+
+            #[cfg(target_arch = "nvptx64")]
+            #[inline(always)]
+            fn address() -> *const __core::primitive::u8 {
+                let __value: __core::primitive::u64;
+                // SAFETY: takes the symbol's address.
+                unsafe {
+                    __core::arch::asm!(
+                        #address,
+                        v = out(reg64) __value,
+                        options(pure, nomem, nostack, preserves_flags),
+                    )
+                };
+                __value as *const __core::primitive::u8
             }
+        }
 
-            #[automatically_derived]
-            impl #krate::params::ParamsSymbol for #ident {
-                #(#loads)*
-
-                #[cfg(target_arch = "nvptx64")]
-                #[inline(always)]
-                fn address() -> *const ::core::primitive::u8 {
-                    let __value: ::core::primitive::u64;
-                    // SAFETY: takes the symbol's address.
-                    unsafe {
-                        ::core::arch::asm!(
-                            #address,
-                            v = out(reg64) __value,
-                            options(pure, nomem, nostack, preserves_flags),
-                        )
-                    };
-                    __value as *const ::core::primitive::u8
-                }
-            }
-        };
-
-        // An item, so it can't be in the block above.
         #[cfg(target_arch = "nvptx64")]
-        ::core::arch::global_asm!(
-            #declare,
-            a = const ::core::mem::align_of::<#ident>(),
-            n = const if ::core::mem::size_of::<#ident>() == 0 { 1 } else { ::core::mem::size_of::<#ident>() },
-            layout = const #krate::params::layout_fingerprint(
-                ::core::mem::size_of::<#ident>(),
-                ::core::mem::align_of::<#ident>(),
-                <#ident as #krate::params::LaunchParams>::FIELDS,
-            ),
-        );
+        impl #ident {
+            const __OPTIX_ALIGN: __core::primitive::usize = __core::mem::align_of::<Self>();
+            // A variable has at least one byte.
+            const __OPTIX_SIZE: __core::primitive::usize = #krate::check::larger(__core::mem::size_of::<Self>(), 1);
+        }
+    });
+    quote! {
+        #impls
+        // An item, so it can't be in a block.
+        #[cfg(target_arch = "nvptx64")]
+        ::core::arch::global_asm!(#declare, align = const #ident::__OPTIX_ALIGN, size = const #ident::__OPTIX_SIZE);
     }
 }

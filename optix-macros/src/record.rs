@@ -2,7 +2,7 @@
 
 use crate::data::{device_data, struct_bounds, twin};
 use crate::shape::Struct;
-use crate::support::{Errors, allow, moved, place_of};
+use crate::support::{Errors, block, device_crate, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use syn::DeriveInput;
@@ -13,30 +13,25 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
         return errors.into_tokens();
     };
     model.require_repr_c("an SBT record", &mut errors);
-    let (krate, ident, allow, name) = (&model.krate, &model.ident, allow(), model.name());
+    let (krate, ident, name) = (&device_crate(), &model.ident, model.name());
     let data = device_data(&model);
     let twin = twin(&model, &mut errors);
     let (host, items) = (twin.host, twin.items);
     let span = place_of(ident);
     let moved = moved(krate, span);
     let align = quote_spanned! {span=>
-        const _: () = #moved::check::record_align(#name, ::core::mem::align_of::<#ident>());
+        const _: () = #moved::check::record_align(#name, __core::mem::align_of::<#ident>());
     };
     let bounds = struct_bounds(&model);
     let errors = errors.into_tokens();
-    quote! {
-        #errors
-        #data
-        #items
-        #allow
-        const _: () = {
-            #align
-            #[automatically_derived]
-            impl #krate::record::SbtRecord for #ident #bounds {
-                const NAME: &'static ::core::primitive::str = #name;
-                #[cfg(not(target_arch = "nvptx64"))]
-                type Host = #host;
-            }
-        };
-    }
+    let record = block(quote! {
+        #align
+        #[automatically_derived]
+        impl #krate::record::SbtRecord for #ident #bounds {
+            const NAME: &'static __core::primitive::str = #name;
+            #[cfg(not(target_arch = "nvptx64"))]
+            type Host = #host;
+        }
+    });
+    quote!(#errors #data #items #record)
 }

@@ -1,6 +1,6 @@
 //! Structs as the derives see them.
 
-use crate::support::{Errors, crate_of, mentions, name, ungroup};
+use crate::support::{Errors, mentions, name, ungroup};
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, quote};
 use syn::spanned::Spanned;
@@ -13,8 +13,6 @@ pub struct Struct {
     pub ident: Ident,
     pub form: Form,
     pub fields: Vec<Field>,
-    /// The device crate.
-    pub krate: Path,
 }
 
 /// How a struct is written.
@@ -98,7 +96,6 @@ fn is_no_field(field: &syn::Field, of: &Ident, what: &str, errors: &mut Errors) 
 impl Struct {
     /// Reads a struct. `what` is what it is to become: "a payload", "an SBT record".
     pub fn parse(input: &DeriveInput, what: &str, tuples: bool, errors: &mut Errors) -> Option<Self> {
-        let krate = crate_of(&input.attrs, errors);
         let data = match &input.data {
             Data::Struct(data) => data,
             Data::Enum(data) => {
@@ -131,14 +128,7 @@ impl Struct {
             return None;
         }
         let fields = data.fields.iter().enumerate().map(|(i, field)| Field::parse(i, field, errors)).collect();
-        Some(Self {
-            attrs: input.attrs.clone(),
-            vis: input.vis.clone(),
-            ident: input.ident.clone(),
-            form,
-            fields,
-            krate,
-        })
+        Some(Self { attrs: input.attrs.clone(), vis: input.vis.clone(), ident: input.ident.clone(), form, fields })
     }
 
     /// The name.

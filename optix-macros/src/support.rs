@@ -1,7 +1,10 @@
 //! What every macro needs: the path of the device crate, errors as values, names.
 
+use crate::{compiler, depth};
 use proc_macro2::{Group, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{Attribute, DeriveInput, Error, Ident, Path, Type};
@@ -40,62 +43,63 @@ impl Errors {
     }
 }
 
+/// Whether a macro can begin; otherwise an error is added that says why not. `code` says that the tokens are a function.
+pub fn may_begin(tokens: &TokenStream, code: bool, errors: &mut Errors) -> bool {
+    if let Some(problem) = compiler::problem() {
+        errors.push(Error::new(Span::call_site(), problem));
+        return false;
+    }
+    depth::check(tokens, code, errors)
+}
+
 /// A derive as a function from tokens to tokens.
 pub fn derive(input: TokenStream, make: fn(&DeriveInput) -> TokenStream) -> TokenStream {
+    let mut errors = Errors::default();
+    if !may_begin(&input, false, &mut errors) {
+        return errors.into_tokens();
+    }
     match syn::parse2(input) {
         Ok(input) => make(&input),
         Err(error) => error.into_compile_error(),
     }
 }
 
-/// The device crate's path, unless `crate = path` says otherwise.
-pub fn default_crate() -> Path {
-    syn::parse_quote!(::optix_device_rs)
+/// What generated code calls the device crate; see [`block`].
+pub fn device_crate() -> Ident {
+    Ident::new("__optix", Span::call_site())
 }
 
-/// Parses the arguments of an attribute: nothing, or `crate = path`.
-pub fn crate_argument(arguments: TokenStream, attribute: &str, errors: &mut Errors) -> Path {
-    if arguments.is_empty() {
-        return default_crate();
+/// A block of items that know the device crate as `__optix` and the core library as `__core`.
+///
+/// Generated code says `unsafe` where a function of the device crate has made sure of something, so it must be that crate's
+/// function. A path such as `::core` asks for what the crate calls so, and `extern crate self as core` lets that be any module.
+/// So there is one path, and where the crate makes another thing of it, `extern crate`, which asks for what the compiler was given.
+/// Elsewhere there is no such item, since rustc would name every type of the device crate by it.
+pub fn block(items: TokenStream) -> TokenStream {
+    let name = compiler::device_crate();
+    let imported =
+        if compiler::is_shadowed() { quote!(extern crate #name as __optix;) } else { quote!(use ::#name as __optix;) };
+    quote! {
+        const _: () = {
+            #imported
+            use __optix::macro_support::core as __core;
+            #items
+        };
     }
-    let parse = |input: syn::parse::ParseStream<'_>| {
-        if !input.peek(syn::Token![crate]) {
-            return Err(input.error(format!(
-                "`#[{attribute}]` takes no arguments (but `crate = path`, where optix-device-rs has another name)"
-            )));
-        }
-        input.parse::<syn::Token![crate]>()?;
-        input.parse::<syn::Token![=]>()?;
-        let path = crate_path(input)?;
-        input.parse::<Option<syn::Token![,]>>()?;
-        Ok(path)
-    };
-    errors.keep(syn::parse::Parser::parse2(parse, arguments)).unwrap_or_else(default_crate)
 }
 
-/// The path after `crate =`.
-pub fn crate_path(input: syn::parse::ParseStream<'_>) -> syn::Result<Path> {
-    if input.peek(syn::LitStr) {
-        return Err(input.error("expected a path, without quotes, such as `rt` or `crate::toolkit::rt`"));
-    }
-    Path::parse_mod_style(input)
+/// The device crate where no [`block`] can be: in the declaration of a type that users name. Code in a block then uses the type
+/// with what the path should have led to.
+pub fn device_crate_outside() -> Path {
+    let name = compiler::device_crate();
+    syn::parse_quote!(::#name)
 }
 
-/// Reads `#[optix(crate = path)]` of a derive.
-pub fn crate_of(attributes: &[Attribute], errors: &mut Errors) -> Path {
-    let mut path = default_crate();
-    for attribute in attributes.iter().filter(|a| a.path().is_ident("optix")) {
-        let result = attribute.parse_nested_meta(|meta| {
-            if meta.path.is_ident("crate") {
-                path = crate_path(meta.value()?)?;
-                Ok(())
-            } else {
-                Err(meta.error("unknown option: expected `crate = path`"))
-            }
-        });
-        errors.keep(result);
+/// The arguments of an attribute that has none.
+pub fn no_arguments(arguments: TokenStream, attribute: &str, errors: &mut Errors) {
+    if !arguments.is_empty() {
+        errors.at(arguments, format!("`#[{attribute}]` takes no arguments"));
     }
-    path
 }
 
 /// Where `tokens` are, for generated code that an error should point to. Names resolve as in the macro's own output.
@@ -158,20 +162,9 @@ pub fn ungroup(mut ty: &Type) -> &Type {
     }
 }
 
-/// Lints that generated items would set off although the user can do nothing about them.
-pub fn allow() -> TokenStream {
-    quote! {
-        #[allow(
-            unsafe_code, unexpected_cfgs, dead_code, unused_qualifications, unreachable_pub, private_interfaces, private_bounds,
-            non_camel_case_types, non_upper_case_globals, non_snake_case, missing_docs, unused_variables,
-            clippy::undocumented_unsafe_blocks, clippy::multiple_unsafe_ops_per_block, clippy::missing_safety_doc,
-            clippy::pedantic, clippy::restriction, clippy::nursery, clippy::style, clippy::complexity
-        )]
-    }
-}
-
 /// Eight digits that tell apart things of one name, the same in host and device builds: they come from the package and
-/// from the place in its source, not from how a compiler prints tokens or where the package lies on disk.
+/// from the place in its source, not from how a compiler prints tokens or where the package lies on disk. What a macro of the
+/// user's makes several times has one place; its digits follow from how many came before.
 pub fn place(span: Span, name: &str) -> String {
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     let mut mix = |text: &str| {
@@ -180,7 +173,9 @@ pub fn place(span: Span, name: &str) -> String {
         }
     };
     mix(name);
-    mix(&std::env::var("CARGO_PKG_NAME").unwrap_or_default());
+    for package in ["CARGO_PKG_NAME", "CARGO_PKG_VERSION"] {
+        mix(&std::env::var(package).unwrap_or_default());
+    }
     if proc_macro::is_available() {
         let span = span.unwrap();
         let file = span.file();
@@ -190,5 +185,13 @@ pub fn place(span: Span, name: &str) -> String {
         mix(&span.line().to_string());
         mix(&span.column().to_string());
     }
-    format!("{:08x}", (hash ^ hash >> 32) as u32)
+    static GIVEN: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
+    let mut given = GIVEN.lock().unwrap_or_else(PoisonError::into_inner);
+    loop {
+        let digits = (hash ^ hash >> 32) as u32;
+        if given.insert(digits) {
+            return format!("{digits:08x}");
+        }
+        hash = hash.wrapping_mul(0x100_0000_01b3) ^ 1;
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::data::{must_copy, touch};
 use crate::shape::{Struct, construct};
-use crate::support::{Errors, allow, moved, place_of};
+use crate::support::{Errors, block, device_crate, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
 use syn::DeriveInput;
@@ -16,7 +16,7 @@ struct Places {
 }
 
 fn places(model: &Struct) -> Places {
-    let krate = &model.krate;
+    let krate = &device_crate();
     let mut consts = TokenStream::new();
     let (mut stores, mut loads) = (Vec::new(), Vec::new());
     for (i, field) in model.fields.iter().enumerate() {
@@ -24,13 +24,13 @@ fn places(model: &Struct) -> Places {
         let (at, next) = (format_ident!("__AT_{i}"), format_ident!("__AT_{}", i + 1));
         if i == 0 {
             consts.extend(quote!(
-                const __AT_0: ::core::primitive::usize = 0;
+                const __AT_0: __core::primitive::usize = 0;
             ));
         }
         let span = place_of(ty);
         let krate = moved(krate, span);
         let count = quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT);
-        consts.extend(quote!(const #next: ::core::primitive::usize = #at + #count;));
+        consts.extend(quote!(const #next: __core::primitive::usize = #at + #count;));
         let store = quote_spanned!(span=> <#ty as #krate::words::Words>::store);
         stores.push(quote!(#store(self.#member, #krate::words::part_mut(__words, #at, #next));));
         let load = quote_spanned!(span=> <#ty as #krate::words::Words>::load);
@@ -38,7 +38,7 @@ fn places(model: &Struct) -> Places {
     }
     let end = format_ident!("__AT_{}", model.fields.len());
     let end = if model.fields.is_empty() { quote!(0) } else { quote!(#end) };
-    consts.extend(quote!(const __END: ::core::primitive::usize = #end;));
+    consts.extend(quote!(const __END: __core::primitive::usize = #end;));
     let load = construct(quote!(Self), &model.fields, &loads);
     Places { consts, stores, load }
 }
@@ -49,33 +49,30 @@ pub fn derive_words(input: &DeriveInput) -> TokenStream {
     let Some(model) = Struct::parse(input, "a value in registers", true, &mut errors) else {
         return errors.into_tokens();
     };
-    let (krate, ident, allow) = (&model.krate, &model.ident, allow());
+    let (krate, ident) = (&device_crate(), &model.ident);
     let Places { consts, stores, load } = places(&model);
     let touch = touch(&model);
     let (must_copy, bound) = must_copy(&model);
     let errors = errors.into_tokens();
-    quote! {
-        #errors
-        #allow
-        const _: () = {
+    let items = block(quote! {
             #consts
             #must_copy
             #[automatically_derived]
             impl #krate::words::Words for #ident #bound {
-                const COUNT: ::core::primitive::usize = __END;
+                const COUNT: __core::primitive::usize = __END;
                 #[inline(always)]
-                fn store(self, __words: &mut [::core::primitive::u32]) {
+                fn store(self, __words: &mut [__core::primitive::u32]) {
                     #(#stores)*
                 }
                 #[inline(always)]
-                unsafe fn load(__words: &[::core::primitive::u32]) -> Self {
+                unsafe fn load(__words: &[__core::primitive::u32]) -> Self {
                     // SAFETY: `store` stores each field in the words that it is loaded from.
                     #load
                 }
             }
             #touch
-        };
-    }
+    });
+    quote!(#errors #items)
 }
 
 /// `#[derive(Attributes)]`.
@@ -84,34 +81,31 @@ pub fn derive_attributes(input: &DeriveInput) -> TokenStream {
     let Some(model) = Struct::parse(input, "an attribute set", true, &mut errors) else {
         return errors.into_tokens();
     };
-    let (krate, ident, allow, name) = (&model.krate, &model.ident, allow(), model.name());
+    let (krate, ident, name) = (&device_crate(), &model.ident, model.name());
     let Places { consts, stores, load } = places(&model);
     let span = place_of(ident);
     let moved = moved(krate, span);
     let check = quote_spanned!(span=> const _: () = #moved::check::attribute_words(#name, __END););
     let touch = touch(&model);
     let errors = errors.into_tokens();
-    quote! {
-        #errors
-        #allow
-        const _: () = {
+    let items = block(quote! {
             #consts
             #check
             #[automatically_derived]
             impl #krate::attributes::Attributes for #ident {
-                const NAME: &'static ::core::primitive::str = #name;
-                const WORDS: ::core::primitive::usize = __END;
+                const NAME: &'static __core::primitive::str = #name;
+                const WORDS: __core::primitive::usize = __END;
                 #[inline(always)]
-                unsafe fn load(__words: &[::core::primitive::u32]) -> Self {
+                unsafe fn load(__words: &[__core::primitive::u32]) -> Self {
                     // SAFETY: `store` stores each field in the words that it is loaded from.
                     #load
                 }
                 #[inline(always)]
-                fn store(self, __words: &mut [::core::primitive::u32]) {
+                fn store(self, __words: &mut [__core::primitive::u32]) {
                     #(#stores)*
                 }
             }
             #touch
-        };
-    }
+    });
+    quote!(#errors #items)
 }

@@ -2,8 +2,8 @@
 
 use super::model::{Party, Payload, Transport};
 use crate::data::{docs_or, touch};
-use crate::support::{allow, moved, place_of};
-use proc_macro2::{Ident, TokenStream};
+use crate::support::{block, device_crate, moved, place_of};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 
 /// `RadianceAtMiss` and the like.
@@ -29,7 +29,7 @@ impl Part {
 /// `sound` if nothing was wrong with the declaration: its size is asserted only then, so that one mistake is one error.
 pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
     let shape = &payload.shape;
-    let (krate, ident, allow, name) = (&shape.krate, &shape.ident, allow(), shape.name());
+    let (krate, ident, name) = (&device_crate(), &shape.ident, shape.name());
     let parts: Vec<Part> = Party::ALL
         .into_iter()
         .flat_map(|party| [(party, false), (party, true)])
@@ -63,8 +63,8 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
         let krate = moved(krate, span);
         let words = quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT);
         places.extend(quote! {
-            const #count: ::core::primitive::usize = #words;
-            const #next: ::core::primitive::usize = #at + #count;
+            const #count: __core::primitive::usize = #words;
+            const #next: __core::primitive::usize = #at + #count;
         });
         let name = field.name();
         fields.push(quote!(#krate::payload::Field { name: #name, at: #at, count: #count }));
@@ -121,30 +121,26 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
     });
     let touch = touch(shape);
 
-    quote! {
-        #(#structs)*
-
-        #allow
-        const _: () = {
-            const __AT_0: ::core::primitive::usize = 0;
+    let items = block(quote! {
+            const __AT_0: __core::primitive::usize = 0;
             #places
-            const __WORDS: ::core::primitive::usize = #end;
-            const __REGISTERS: ::core::primitive::usize = #registers;
+            const __WORDS: __core::primitive::usize = #end;
+            const __REGISTERS: __core::primitive::usize = #registers;
             #check
 
-            const __SEMANTICS: [::core::primitive::u32; __REGISTERS] = #semantics;
+            const __SEMANTICS: [__core::primitive::u32; __REGISTERS] = #semantics;
 
             // SAFETY: the words are counted above (in registers 32 at most, asserted), each part has the fields its party may
             // touch, and the macro proved that what is read was written.
             #[automatically_derived]
             unsafe impl #krate::payload::Payload for #ident {
-                const NAME: &'static ::core::primitive::str = #name;
-                const WORDS: ::core::primitive::usize = __WORDS;
+                const NAME: &'static __core::primitive::str = #name;
+                const WORDS: __core::primitive::usize = __WORDS;
                 const FIELDS: &'static [#krate::payload::Field] = &[#(#fields),*];
-                const SEMANTICS: &'static [::core::primitive::u32] = &__SEMANTICS;
-                const SEMANTICS_AT_TRAVERSE: &'static [::core::primitive::u32] =
+                const SEMANTICS: &'static [__core::primitive::u32] = &__SEMANTICS;
+                const SEMANTICS_AT_TRAVERSE: &'static [__core::primitive::u32] =
                     &#krate::payload::semantics::at_traverse(__SEMANTICS);
-                const SEMANTICS_AT_INVOKE: &'static [::core::primitive::u32] =
+                const SEMANTICS_AT_INVOKE: &'static [__core::primitive::u32] =
                     &#krate::payload::semantics::at_invoke(__SEMANTICS);
                 type Transport = #transport;
                 #(#types)*
@@ -152,8 +148,8 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
             #without_closesthit
             #(#impls)*
             #touch
-        };
-    }
+    });
+    quote!(#(#structs)* #items)
 }
 
 /// The constant of a party's bit.
@@ -163,7 +159,7 @@ fn semantics_bit(krate: &impl ToTokens, party: Party, access: &str) -> TokenStre
 }
 
 fn transport(payload: &Payload) -> TokenStream {
-    let krate = &payload.shape.krate;
+    let krate = &device_crate();
     match payload.transport {
         Transport::Registers => quote!(#krate::payload::Registers),
         Transport::Pointer => quote!(#krate::payload::Pointer<__WORDS>),
@@ -202,7 +198,6 @@ fn part_struct(payload: &Payload, part: &Part) -> TokenStream {
     quote! {
         #[doc = #doc]
         #hidden
-        #[allow(dead_code, unreachable_pub, private_interfaces, missing_docs)]
         #vis struct #ident {
             #(#fields,)*
         }
@@ -217,9 +212,11 @@ fn unread(payload: &Payload, part: &Part) -> Option<TokenStream> {
     if !part.reads || missing.is_empty() {
         return None;
     }
-    let (krate, ident, name, keyword) = (&shape.krate, &part.ident, shape.name(), part.party.keyword());
+    let (krate, ident, name, keyword) = (&device_crate(), &part.ident, shape.name(), part.party.keyword());
     let unread = format_ident!("{}NotAt{}", name, part.party.suffix());
     let members: Vec<_> = missing.iter().map(|&i| &shape.fields[i].member).collect();
+    // The macro's own use of them is not reported.
+    let quiet: Vec<_> = members.iter().map(|member| moved(member, Span::call_site())).collect();
     let notes = missing.iter().map(|&i| {
         let field = shape.fields[i].name();
         let phrase = part.party.phrase();
@@ -230,12 +227,11 @@ fn unread(payload: &Payload, part: &Part) -> Option<TokenStream> {
             #(#[deprecated(note = #notes)] pub #members: #krate::check::NotReadHere,)*
         }
         #[automatically_derived]
-        impl ::core::ops::Deref for #ident {
+        impl __core::ops::Deref for #ident {
             type Target = #unread;
-            #[allow(deprecated)]
             #[inline(always)]
             fn deref(&self) -> &#unread {
-                &#unread { #(#members: #krate::check::NotReadHere),* }
+                &#unread { #(#quiet: #krate::check::NotReadHere),* }
             }
         }
     })
@@ -247,7 +243,7 @@ fn hollow_impls(payload: &Payload, part: &Part, sound: bool) -> TokenStream {
     if part.party == Party::Caller {
         return TokenStream::new();
     }
-    let (krate, payload_ident, ident) = (&payload.shape.krate, &payload.shape.ident, &part.ident);
+    let (krate, payload_ident, ident) = (&device_crate(), &payload.shape.ident, &part.ident);
     let passage = (!sound).then(|| passage(payload, part, &quote!(loop {}), &quote!({})));
     quote! {
         #[automatically_derived]
@@ -260,7 +256,7 @@ fn hollow_impls(payload: &Payload, part: &Part, sound: bool) -> TokenStream {
 
 fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
     let shape = &payload.shape;
-    let (krate, payload_ident, ident) = (&shape.krate, &shape.ident, &part.ident);
+    let (krate, payload_ident, ident) = (&device_crate(), &shape.ident, &part.ident);
     let passage = passage(payload, part, &quote!(__part), &quote!(self));
     let places = part.fields.iter().map(|i| (format_ident!("__AT_{i}"), format_ident!("__AT_{}", i + 1)));
     let masks = part.fields.iter().map(|i| {
@@ -290,8 +286,8 @@ fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
     });
     let debug = quote! {
         #[automatically_derived]
-        impl ::core::fmt::Debug for #ident {
-            fn fmt(&self, __f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+        impl __core::fmt::Debug for #ident {
+            fn fmt(&self, __f: &mut __core::fmt::Formatter<'_>) -> __core::fmt::Result {
                 use #krate::check::{ShowValue as _, ShowName as _};
                 __f.debug_struct(#text) #(#shown)* .finish()
             }
@@ -300,14 +296,14 @@ fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
     // One error of a field that can't be copied, where derives would give two.
     let copies = quote! {
         #[automatically_derived]
-        impl ::core::clone::Clone for #ident {
+        impl __core::clone::Clone for #ident {
             #[inline(always)]
             fn clone(&self) -> Self {
                 *self
             }
         }
         #[automatically_derived]
-        impl ::core::marker::Copy for #ident {}
+        impl __core::marker::Copy for #ident {}
     };
     let unread = unread(payload, part);
     quote! {
@@ -318,15 +314,15 @@ fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
         #[automatically_derived]
         unsafe impl #krate::payload::Part for #ident {
             type Transport = #transport;
-            const FIELDS: &'static [::core::primitive::usize] = &[#(#indices),*];
-            const MASK: ::core::primitive::u32 = 0 #(| #masks)*;
+            const FIELDS: &'static [__core::primitive::usize] = &[#(#indices),*];
+            const MASK: __core::primitive::u32 = 0 #(| #masks)*;
             #[inline(always)]
-            unsafe fn load(__words: &[::core::primitive::u32]) -> Self {
+            unsafe fn load(__words: &[__core::primitive::u32]) -> Self {
                 // SAFETY: the caller's, field by field.
                 Self { #(#loads),* }
             }
             #[inline(always)]
-            fn store(self, __words: &mut [::core::primitive::u32]) {
+            fn store(self, __words: &mut [__core::primitive::u32]) {
                 #(#stores)*
             }
         }
@@ -343,7 +339,7 @@ fn passage(payload: &Payload, part: &Part, take: &TokenStream, give: &TokenStrea
     if part.party == Party::Caller {
         return TokenStream::new();
     }
-    let (krate, payload, ident, role) = (&payload.shape.krate, &payload.shape.ident, &part.ident, part.role());
+    let (krate, payload, ident, role) = (&device_crate(), &payload.shape.ident, &part.ident, part.role());
     let part_type = quote!(<#payload as #krate::payload::Payload>::#role);
     if part.reads {
         let passage = format_ident!("ReceivedBy{}", part.party.suffix());

@@ -2,11 +2,12 @@
 
 use super::check::path;
 use super::parse::{Geometry, Group, Pipeline, Programs};
+use crate::compiler::has_cfg;
 use crate::program::Kind;
-use crate::support::{allow, moved, name, place, place_of};
+use crate::support::{block, device_crate, moved, name, place, place_of};
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
-use syn::Path;
+use syn::{Ident, Path};
 
 /// Entry points, as they are needed.
 struct Entries<'a> {
@@ -27,7 +28,7 @@ impl Entries<'_> {
         bound: &TokenStream,
         of: &[String],
     ) -> TokenStream {
-        let krate = &self.pipeline.krate;
+        let krate = &device_crate();
         let mut stem = format!("__{}__{}_{}", kind.attribute(), name(&self.pipeline.ident), symbol(program));
         for part in of {
             stem.push('_');
@@ -94,7 +95,6 @@ impl Entries<'_> {
                 // SAFETY: `Cx::call_direct` and its kin call it, by this type, with a record of its own.
                 #[cfg(target_arch = "nvptx64")]
                 #mark
-                #[allow(improper_ctypes_definitions)]
                 #[unsafe(no_mangle)]
                 pub unsafe extern "C" fn #device(
                     __arguments: #krate::callable::Packed<<#signature as #krate::callable::Signature>::Arguments>,
@@ -137,7 +137,7 @@ fn symbol(path: &impl ToTokens) -> String {
 
 /// `<program as krate::program::bound>::item`, all of it where the program's name is: rustc reports a program that does not
 /// fit in several places, which are one message if they have one span.
-fn of_program(krate: &Path, program: &Path, bound: &TokenStream, item: &str) -> TokenStream {
+fn of_program(krate: &Ident, program: &Path, bound: &TokenStream, item: &str) -> TokenStream {
     let span = program_span(program);
     let item = format_ident!("{item}");
     moved(&quote!(<#program as #krate::program::#bound>::#item), span)
@@ -153,8 +153,8 @@ fn program_span(program: &Path) -> Span {
 
 fn option(value: Option<TokenStream>) -> TokenStream {
     match value {
-        Some(value) => quote!(::core::option::Option::Some(#value)),
-        None => quote!(::core::option::Option::None),
+        Some(value) => quote!(__core::option::Option::Some(#value)),
+        None => quote!(__core::option::Option::None),
     }
 }
 
@@ -162,15 +162,15 @@ fn structure(pipeline: &Pipeline) -> TokenStream {
     let Pipeline { attrs, vis, ident, .. } = pipeline;
     quote! {
         #(#attrs)*
-        #[allow(dead_code, unreachable_pub)]
         #vis struct #ident;
     }
 }
 
 pub fn emit(pipeline: &Pipeline) -> TokenStream {
-    let Pipeline { ident, krate, params, .. } = pipeline;
+    let Pipeline { ident, params, .. } = pipeline;
+    let krate = &device_crate();
     let pipeline_name = name(ident);
-    let (structure, allow) = (structure(pipeline), allow());
+    let structure = structure(pipeline);
     let mut entries =
         Entries { pipeline, place: place(ident.span(), &pipeline_name), items: TokenStream::new(), names: Vec::new() };
     let mut impls = TokenStream::new();
@@ -184,7 +184,7 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #krate::pipeline::HasRayGen<#program> for #ident {
-                const INDEX: ::core::primitive::u32 = #index;
+                const INDEX: __core::primitive::u32 = #index;
                 type Record = #record;
             }
         });
@@ -222,7 +222,7 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #there::pipeline::HasHitGroup<#record, #krate::attributes::#geometry> for #pipeline_there {
-                const INDEX: ::core::primitive::u32 = #index;
+                const INDEX: __core::primitive::u32 = #index;
             }
         });
         groups.push(describe_group(pipeline, group, &mut entries, &mut impls));
@@ -234,18 +234,25 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
     let ray_types = pipeline.rays.len() as u32;
     let depth = option(pipeline.trace_depth.as_ref().map(|depth| depth.to_token_stream()));
     let callable_depth = option(pipeline.callable_depth.as_ref().map(|depth| depth.to_token_stream()));
-    let facts = format_ident!("__optix_facts_{}", entries.place);
+    // `cargo optix verify` compares the PTX with this. It finds a pipeline by the place in its entries' names, so private ones
+    // too; other builds do without the symbol.
+    let facts = has_cfg("optix_facts").then(|| {
+        let facts = format_ident!("__optix_facts_{}", entries.place);
+        quote! {
+            #[unsafe(no_mangle)]
+            fn #facts() -> &'static #krate::host::PipelineDescription {
+                &<#ident as #krate::pipeline::Pipeline>::DESCRIPTION
+            }
+        }
+    });
     let items = entries.items;
-    quote! {
-        #structure
-        #allow
-        const _: () = {
+    let items = block(quote! {
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #krate::pipeline::Pipeline for #ident {
                 type Params = #params;
                 type Exception = #exception;
-                const RAY_TYPES: ::core::primitive::u32 = #ray_types;
+                const RAY_TYPES: __core::primitive::u32 = #ray_types;
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
                     name: #pipeline_name,
@@ -261,20 +268,14 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
             }
             #impls
             #items
-            // `cargo optix verify` compares the PTX with this. It finds a pipeline by the place in its entries' names, so
-            // private ones too; other builds do without the symbol.
-            #[cfg(optix_facts)]
-            #[unsafe(no_mangle)]
-            fn #facts() -> &'static #krate::host::PipelineDescription {
-                &<#ident as #krate::pipeline::Pipeline>::DESCRIPTION
-            }
-        };
-    }
+            #facts
+    });
+    quote!(#structure #items)
 }
 
 /// The callables' descriptions, with their entries and impls.
 fn callables(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenStream) -> Vec<TokenStream> {
-    let (ident, krate) = (&pipeline.ident, &pipeline.krate);
+    let (ident, krate) = (&pipeline.ident, &device_crate());
     let direct = pipeline.direct_callables.iter().map(|program| (Kind::DirectCallable, "Direct", program));
     let continuation =
         pipeline.continuation_callables.iter().map(|program| (Kind::ContinuationCallable, "Continuation", program));
@@ -289,7 +290,7 @@ fn callables(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenSt
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #krate::pipeline::HasCallable<#program> for #ident {
-                const INDEX: ::core::primitive::u32 = #index;
+                const INDEX: __core::primitive::u32 = #index;
                 type Record = #record;
                 type Signature = #signature;
                 type Kind = #krate::callable::#word;
@@ -308,13 +309,13 @@ fn callables(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenSt
 
 /// What the pipeline's programs throw.
 fn exception_type(pipeline: &Pipeline) -> TokenStream {
-    let krate = &pipeline.krate;
+    let krate = &device_crate();
     pipeline.throws.as_ref().map_or(quote!(#krate::exception::NoException), ToTokens::to_token_stream)
 }
 
 /// The impl that lets programs throw.
 fn throws(pipeline: &Pipeline) -> Option<TokenStream> {
-    let (ident, krate) = (&pipeline.ident, &pipeline.krate);
+    let (ident, krate) = (&pipeline.ident, &device_crate());
     pipeline.throws.as_ref().map(|exception| {
         let span = place_of(exception);
         let (krate, ident) = (moved(krate, span), moved(ident, span));
@@ -328,7 +329,7 @@ fn throws(pipeline: &Pipeline) -> Option<TokenStream> {
 
 /// The exceptions' description, with the entry and impls.
 fn exceptions(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenStream) -> TokenStream {
-    let (ident, krate) = (&pipeline.ident, &pipeline.krate);
+    let (ident, krate) = (&pipeline.ident, &device_crate());
     impls.extend(throws(pipeline));
     let (throws, variants) = match &pipeline.throws {
         Some(exception) => {
@@ -363,7 +364,7 @@ fn describe_group(
     entries: &mut Entries<'_>,
     impls: &mut TokenStream,
 ) -> TokenStream {
-    let (ident, krate, record) = (&pipeline.ident, &pipeline.krate, &group.record);
+    let (ident, krate, record) = (&pipeline.ident, &device_crate(), &group.record);
     let hits_of = |programs: &Programs| match &programs.intersection {
         Some(program) => {
             let ray = &programs.ray;
@@ -439,7 +440,7 @@ fn describe_group(
 
 /// `<sky as MissProgram<..>>::Record`, or `()` without a miss program.
 fn miss_record(pipeline: &Pipeline, payload: &syn::Type, program: Option<&Path>) -> TokenStream {
-    let (ident, krate) = (&pipeline.ident, &pipeline.krate);
+    let (ident, krate) = (&pipeline.ident, &device_crate());
     match program {
         Some(program) => of_program(krate, program, &quote!(MissProgram<#ident, #payload>), "Record"),
         None => quote!(()),
@@ -447,7 +448,7 @@ fn miss_record(pipeline: &Pipeline, payload: &syn::Type, program: Option<&Path>)
 }
 
 fn has_rays(pipeline: &Pipeline) -> TokenStream {
-    let (ident, krate) = (&pipeline.ident, &pipeline.krate);
+    let (ident, krate) = (&pipeline.ident, &device_crate());
     let impls = pipeline.rays.iter().enumerate().map(|(i, ray)| {
         let (payload, index) = (&ray.payload, i as u32);
         let span = place_of(payload);
@@ -460,7 +461,7 @@ fn has_rays(pipeline: &Pipeline) -> TokenStream {
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #has_ray for #pipeline {
-                const INDEX: ::core::primitive::u32 = #index;
+                const INDEX: __core::primitive::u32 = #index;
                 type MissRecord = #record;
             }
         }
@@ -469,7 +470,7 @@ fn has_rays(pipeline: &Pipeline) -> TokenStream {
 }
 
 /// Asserts that no program is missing here.
-fn nothing_to_write(krate: &Path, payload: &syn::Type, role: &str) -> TokenStream {
+fn nothing_to_write(krate: &Ident, payload: &syn::Type, role: &str) -> TokenStream {
     let span = place_of(payload);
     let role = format_ident!("{role}", span = span);
     let krate = moved(krate, span);
@@ -480,8 +481,8 @@ fn nothing_to_write(krate: &Path, payload: &syn::Type, role: &str) -> TokenStrea
 
 /// After an error: the pipeline with its ray types, so that its programs have nothing to complain about.
 pub fn fallback(pipeline: &Pipeline) -> TokenStream {
-    let Pipeline { ident, krate, params, .. } = pipeline;
-    let (structure, allow) = (structure(pipeline), allow());
+    let Pipeline { ident, params, .. } = pipeline;
+    let (krate, structure) = (&device_crate(), structure(pipeline));
     let Some(params) = params else {
         return structure;
     };
@@ -499,21 +500,18 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #krate::pipeline::HasRay<#payload> for #ident {
-                const INDEX: ::core::primitive::u32 = #index;
+                const INDEX: __core::primitive::u32 = #index;
                 type MissRecord = ();
             }
         }
     });
-    quote! {
-        #structure
-        #allow
-        const _: () = {
+    let items = block(quote! {
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #krate::pipeline::Pipeline for #ident {
                 type Params = #params;
                 type Exception = #exception;
-                const RAY_TYPES: ::core::primitive::u32 = 0;
+                const RAY_TYPES: __core::primitive::u32 = 0;
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
                     name: #pipeline_name,
@@ -523,16 +521,16 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
                     hitgroups: &[],
                     callables: &[],
                     exceptions: #krate::host::ExceptionsDescription {
-                        throws: ::core::option::Option::None,
+                        throws: __core::option::Option::None,
                         variants: &[],
-                        program: ::core::option::Option::None,
+                        program: __core::option::Option::None,
                     },
-                    trace_depth: ::core::option::Option::None,
-                    callable_depth: ::core::option::Option::None,
+                    trace_depth: __core::option::Option::None,
+                    callable_depth: __core::option::Option::None,
                 };
             }
             #(#rays)*
             #throws
-        };
-    }
+    });
+    quote!(#structure #items)
 }

@@ -4,12 +4,15 @@ mod check;
 mod emit;
 mod parse;
 
-use crate::support::Errors;
+use crate::support::{Errors, may_begin};
 use proc_macro2::TokenStream;
 use quote::quote;
 
 pub fn expand(input: TokenStream) -> TokenStream {
     let mut errors = Errors::default();
+    if !may_begin(&input, false, &mut errors) {
+        return errors.into_tokens();
+    }
     let Some(pipeline) = parse::parse(input, &mut errors) else {
         return errors.into_tokens();
     };

@@ -1,7 +1,7 @@
 //! The grammar of `pipeline!`. A mistake costs the item it is in, not the rest.
 
 use crate::program::Kind;
-use crate::support::{Errors, cfg_of, crate_path, default_crate};
+use crate::support::{Errors, cfg_of};
 use proc_macro2::{Span, TokenStream, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::{ParseStream, Parser};
@@ -12,7 +12,6 @@ pub struct Pipeline {
     pub attrs: Vec<Attribute>,
     pub vis: Visibility,
     pub ident: Ident,
-    pub krate: Path,
     pub params: Option<Type>,
     pub raygen: Vec<Path>,
     pub rays: Vec<Ray>,
@@ -74,7 +73,7 @@ impl Programs {
     }
 }
 
-/// The parts of a pipeline, besides `crate`.
+/// The parts of a pipeline.
 const PARTS: [&str; 10] = [
     "params",
     "raygen",
@@ -117,7 +116,6 @@ fn pipeline(input: ParseStream<'_>, errors: &mut Errors) -> Result<Pipeline> {
         attrs,
         vis,
         ident,
-        krate: default_crate(),
         params: None,
         raygen: Vec::new(),
         rays: Vec::new(),
@@ -135,7 +133,7 @@ fn pipeline(input: ParseStream<'_>, errors: &mut Errors) -> Result<Pipeline> {
     list(&content, errors, |input, errors| {
         let key = input.call(Ident::parse_any)?;
         let word = key.to_string();
-        if word != "crate" && !PARTS.contains(&word.as_str()) {
+        if !PARTS.contains(&word.as_str()) {
             return Err(Error::new(
                 key.span(),
                 format!(
@@ -154,7 +152,6 @@ fn pipeline(input: ParseStream<'_>, errors: &mut Errors) -> Result<Pipeline> {
         match word.as_str() {
             "params" => pipeline.params = Some(Type::without_plus(input)?),
             "trace_depth" => pipeline.trace_depth = Some(input.parse()?),
-            "crate" => pipeline.krate = crate_path(input)?,
             "callable_depth" => pipeline.callable_depth = Some(input.parse()?),
             "throws" => pipeline.throws = Some(Type::without_plus(input)?),
             "exception" => {

@@ -3,23 +3,25 @@
 use super::kind::{Kind, Roles};
 use super::model::Program;
 use crate::shape::is_plain;
-use crate::support::{allow, moved, place_of};
+use crate::support::{block, device_crate, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
-use syn::{GenericParam, Generics, Ident, Path};
+use syn::{GenericParam, Generics, Ident};
 
-/// The type of the program's name. It is public even where the function is not: a pipeline names it in public impls.
+/// The type of the program's name. It is public even where the function is not: a pipeline names it in public impls. Its name is
+/// the macro's, so that no lint finds a type with a function's name.
 fn marker(ident: &Ident) -> TokenStream {
+    let mut ident = ident.clone();
+    ident.set_span(place_of(&ident));
     quote! {
         #[doc(hidden)]
-        #[allow(non_camel_case_types, unreachable_pub, dead_code, missing_docs)]
         pub struct #ident {}
     }
 }
 
 pub fn emit(program: &Program) -> TokenStream {
-    let Program { kind, krate, ident, pipeline, .. } = program;
-    let (marker, allow) = (marker(ident), allow());
+    let Program { kind, ident, pipeline, .. } = program;
+    let (krate, marker) = (&device_crate(), marker(ident));
     let context = format_ident!("{}", kind.context());
     let trait_there = Ident::new(&kind.program_trait().to_string(), program.context_span);
     let payload_trait = quote!(#krate::payload::Payload);
@@ -124,10 +126,7 @@ pub fn emit(program: &Program) -> TokenStream {
     let implemented = quote_spanned! {program.context_span=>
         #krate_there::program::#trait_there<#trait_arguments>
     };
-    quote! {
-        #marker
-        #allow
-        const _: () = {
+    let items = block(quote! {
             #[automatically_derived]
             impl #impl_generics #implemented for #ident #where_clause {
                 #assoc
@@ -136,13 +135,13 @@ pub fn emit(program: &Program) -> TokenStream {
                     #body
                 }
             }
-        };
-    }
+    });
+    quote!(#marker #items)
 }
 
 fn emit_callable(program: &Program) -> TokenStream {
-    let Program { kind, krate, ident, pipeline, arguments, result, .. } = program;
-    let (marker, allow) = (marker(ident), allow());
+    let Program { kind, ident, pipeline, arguments, result, .. } = program;
+    let (krate, marker) = (&device_crate(), marker(ident));
     let context = format_ident!("{}", kind.context());
     let record = program.record.as_ref().map_or(quote!(()), ToTokens::to_token_stream);
     let record_argument = program.record.as_ref().map(|_| quote!(, __record));
@@ -165,18 +164,15 @@ fn emit_callable(program: &Program) -> TokenStream {
         #[inline(always)]
         fn run(__cx: &#krate::program::#context<#pipeline>, __record: &#record, #names: #arguments) -> #result #body
     };
-    quote! {
-        #marker
-        #allow
-        const _: () = {
+    let items = block(quote! {
             #[automatically_derived]
             impl #impl_generics #implemented for #ident #where_clause {
                 #record_type
                 type Signature = #signature;
                 #run
             }
-        };
-    }
+    });
+    quote!(#marker #items)
 }
 
 /// Type parameters of a function may have no defaults, nor may those of an impl.
@@ -191,8 +187,8 @@ fn without_defaults(generics: &Generics) -> Generics {
 }
 
 /// For a program with errors: fits everywhere, so that nothing else is reported.
-pub fn fallback(kind: Kind, krate: &Path, ident: &Ident) -> TokenStream {
-    let (marker, trait_name, allow) = (marker(ident), kind.program_trait(), allow());
+pub fn fallback(kind: Kind, ident: &Ident) -> TokenStream {
+    let (krate, marker, trait_name) = (&device_crate(), marker(ident), kind.program_trait());
     let pipeline = quote!(__P: #krate::pipeline::Pipeline);
     let hits = quote!(__A: #krate::attributes::Attributes);
     let record = quote!(__Rec: #krate::record::SbtRecord);
@@ -270,10 +266,7 @@ pub fn fallback(kind: Kind, krate: &Path, ident: &Ident) -> TokenStream {
             )
         }
     };
-    quote! {
-        #marker
-        #allow
-        const _: () = {
+    let items = block(quote! {
             #[automatically_derived]
             impl<#generics> #krate::program::#trait_name<#arguments> for #ident {
                 #assoc
@@ -281,6 +274,6 @@ pub fn fallback(kind: Kind, krate: &Path, ident: &Ident) -> TokenStream {
                     loop {}
                 }
             }
-        };
-    }
+    });
+    quote!(#marker #items)
 }

@@ -9,14 +9,18 @@ mod model;
 
 pub use kind::Kind;
 
-use crate::support::{Errors, crate_argument};
+use crate::support::{Errors, may_begin, no_arguments};
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{Attribute, Item};
 
 pub fn expand(kind: Kind, arguments: TokenStream, item: TokenStream) -> TokenStream {
     let mut errors = Errors::default();
-    let krate = crate_argument(arguments, kind.attribute(), &mut errors);
+    if !may_begin(&item, true, &mut errors) {
+        let errors = errors.into_tokens();
+        return quote!(#errors #item);
+    }
+    no_arguments(arguments, kind.attribute(), &mut errors);
     let mut function = match syn::parse2::<Item>(item.clone()) {
         Ok(Item::Fn(function)) => function,
         Ok(other) => {
@@ -42,14 +46,14 @@ pub fn expand(kind: Kind, arguments: TokenStream, item: TokenStream) -> TokenStr
             ),
         );
     }
-    let program = model::Program::new(kind, krate.clone(), &function, &mut errors);
+    let program = model::Program::new(kind, &function, &mut errors);
     // In an impl there is no room for the type that stands for the program.
     let in_impl = model::is_in_impl(&function.sig);
     let items = match program {
         _ if in_impl => TokenStream::new(),
         Some(program) if errors.is_empty() => emit::emit(&program),
         // The pipeline must not complain about the program again.
-        _ => emit::fallback(kind, &krate, &function.sig.ident),
+        _ => emit::fallback(kind, &function.sig.ident),
     };
     let errors = errors.into_tokens();
     // Entries call it from another codegen unit, often with constants.

@@ -7,14 +7,13 @@ use crate::support::{Errors, cfg_of, mentions, place_of, ungroup};
 use proc_macro2::Span;
 use quote::ToTokens;
 use syn::{
-    Error, FnArg, GenericArgument, GenericParam, Generics, Ident, ItemFn, PatType, Path, PathArguments, Receiver,
-    ReturnType, Type, TypeReference,
+    Error, FnArg, GenericArgument, GenericParam, Generics, Ident, ItemFn, PatType, PathArguments, Receiver, ReturnType,
+    Type, TypeReference,
 };
 
 /// A program.
 pub struct Program {
     pub kind: Kind,
-    pub krate: Path,
     pub ident: Ident,
     pub generics: Generics,
     /// First argument of the context.
@@ -40,7 +39,7 @@ pub struct Program {
 
 impl Program {
     /// Reads a signature.
-    pub fn new(kind: Kind, krate: Path, function: &ItemFn, errors: &mut Errors) -> Option<Self> {
+    pub fn new(kind: Kind, function: &ItemFn, errors: &mut Errors) -> Option<Self> {
         let sig = &function.sig;
         qualifiers(kind, function, errors);
         calls_itself(function, errors);
@@ -118,7 +117,6 @@ impl Program {
         }
         let program = Self {
             kind,
-            krate,
             ident: sig.ident.clone(),
             generics: sig.generics.clone(),
             pipeline,
