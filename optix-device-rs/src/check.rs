@@ -502,6 +502,7 @@ impl Text {
 const EMPTY: Text = Text { bytes: [0; 512], len: 0 };
 
 /// A payload has 32 words at most (guide 14).
+#[track_caller]
 pub const fn payload_words(name: &str, words: usize) {
     if words > crate::words::MAX_PAYLOAD_WORDS {
         let text = EMPTY
@@ -517,6 +518,7 @@ pub const fn payload_words(name: &str, words: usize) {
 }
 
 /// Attributes have 8 words at most (guide 13.4).
+#[track_caller]
 pub const fn attribute_words(name: &str, words: usize) {
     if words > crate::words::MAX_ATTRIBUTE_WORDS {
         let text = EMPTY
@@ -531,7 +533,34 @@ pub const fn attribute_words(name: &str, words: usize) {
     }
 }
 
+/// What `pipeline!` names is a function with an attribute, which made the type of its name.
+#[track_caller]
+pub const fn is_program(has_attribute: bool, is_function: bool, name: &str, attribute: &str) {
+    if has_attribute {
+        return;
+    }
+    let text = if is_function {
+        EMPTY
+            .push("`")
+            .push(name)
+            .push("` is a function without an attribute, so it is not a program: put `#[")
+            .push(attribute)
+            .push("]` above it")
+    } else {
+        EMPTY
+            .push("there is no function `")
+            .push(name)
+            .push("` here: name a function with `#[")
+            .push(attribute)
+            .push("]`, one of another module by its path, such as `crate::shaders::")
+            .push(name)
+            .push("`, or after `use`")
+    };
+    panic!("{}", text.as_str());
+}
+
 /// A call passes and returns 32 words at most.
+#[track_caller]
 pub const fn callable<F: crate::callable::Signature>(name: &str) {
     let arguments = <F::Arguments as crate::words::Words>::COUNT;
     let result = <F::Result as crate::words::Words>::COUNT;
@@ -553,6 +582,7 @@ pub const fn callable<F: crate::callable::Signature>(name: &str) {
 }
 
 /// A user exception has a code of 30 bits (guide 13.14) and [`MAX_DETAILS`](crate::exception::MAX_DETAILS) words of details at most.
+#[track_caller]
 pub const fn exception(name: &str, variant: &str, code: i64, words: usize) {
     let text = EMPTY.push("exception `").push(name).push("::").push(variant);
     if code < 0 || code >= crate::exception::MAX_CODE as i64 {
@@ -578,6 +608,7 @@ pub const fn larger(a: usize, b: usize) -> usize {
 }
 
 /// A record's data is aligned to 16 bytes at most (guide 7.2).
+#[track_caller]
 pub const fn record_align(name: &str, align: usize) {
     if align > 16 {
         let text = EMPTY
@@ -591,6 +622,7 @@ pub const fn record_align(name: &str, align: usize) {
 }
 
 /// A bound value has at least one byte (guide 6.5.1).
+#[track_caller]
 pub const fn bound_field(name: &str, field: &str, size: usize) {
     if size == 0 {
         let text = EMPTY
@@ -604,6 +636,7 @@ pub const fn bound_field(name: &str, field: &str, size: usize) {
 }
 
 /// An element has no padding.
+#[track_caller]
 pub const fn no_padding(name: &str, size: usize, fields: usize) {
     if size != fields {
         let text = EMPTY

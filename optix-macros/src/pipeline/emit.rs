@@ -1,6 +1,7 @@
 //! The pipeline type, its description for the host, and the entry points of both machines.
 
 use super::check::path;
+use super::names::{imports, is_function, type_of};
 use super::parse::{Geometry, Group, Pipeline, Programs};
 use crate::compiler::has_cfg;
 use crate::program::Kind;
@@ -117,7 +118,12 @@ impl Entries<'_> {
                 }
             }
         });
-        let function = path(program);
+        let (function, attribute) = (path(program), kind.attribute());
+        let (marked, is_function) = (of_program(krate, program, bound, "MARKED"), is_function(program));
+        let there = moved(krate, span);
+        self.items.extend(quote_spanned! {span=>
+            const _: () = #there::check::is_program(#marked, { #is_function }, #function, #attribute);
+        });
         quote!(#krate::host::Entry { name: #entry_name, function: #function, run: #host })
     }
 }
@@ -140,11 +146,12 @@ fn symbol(path: &impl ToTokens) -> String {
 fn of_program(krate: &Ident, program: &Path, bound: &TokenStream, item: &str) -> TokenStream {
     let span = program_span(program);
     let item = format_ident!("{item}");
+    let program = type_of(program);
     moved(&quote!(<#program as #krate::program::#bound>::#item), span)
 }
 
 /// Where a program's own name is.
-fn program_span(program: &Path) -> Span {
+pub fn program_span(program: &Path) -> Span {
     match program.segments.last() {
         Some(last) => place_of(&last.ident),
         None => place_of(program),
@@ -180,6 +187,7 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
         let record = of_program(krate, program, &bound, "Record");
         let entry = entries.add(Kind::RayGen, program, &quote!(#ident, _), &bound, &[]);
         let index = i as u32;
+        let program = type_of(program);
         impls.extend(quote! {
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
@@ -246,7 +254,9 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
         }
     });
     let items = entries.items;
+    let imports = imports(pipeline);
     let items = block(quote! {
+            #imports
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #krate::pipeline::Pipeline for #ident {
@@ -284,12 +294,12 @@ fn callables(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenSt
         let bound = quote!(#program_trait<#ident>);
         let of = |item: &str| of_program(krate, program, &bound, item);
         let (record, signature) = (of("Record"), of("Signature"));
-        let (program_name, span) = (path(program), program_span(program));
+        let (program_name, program_type, span) = (path(program), type_of(program), program_span(program));
         let there = moved(krate, span);
         impls.extend(quote! {
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
-            unsafe impl #krate::pipeline::HasCallable<#program> for #ident {
+            unsafe impl #krate::pipeline::HasCallable<#program_type> for #ident {
                 const INDEX: __core::primitive::u32 = #index;
                 type Record = #record;
                 type Signature = #signature;

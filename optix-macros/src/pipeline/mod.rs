@@ -2,6 +2,7 @@
 
 mod check;
 mod emit;
+mod names;
 mod parse;
 
 use crate::support::{Errors, may_begin};

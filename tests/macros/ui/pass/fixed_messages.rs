@@ -1,6 +1,9 @@
 //! Cases of commonest mistakes, put right: one module each, with the name of the case.
 #![allow(dead_code, unused)]
 
+#[path = "../common/mod.rs"]
+mod common;
+
 mod program_receives_nothing_of_the_payload {
     use optix_device_rs::prelude::*;
 
@@ -48,6 +51,62 @@ mod payload_field_not_copy {
     #[miss]
     pub fn dark<P: Pipeline>(_: &Miss<P>) -> RadianceFromMiss {
         RadianceFromMiss { light: Spectrum { bands: [0.0; 4] } }
+    }
+}
+
+mod pipeline_programs_without_attributes {
+    use crate::common::*;
+
+    #[closesthit]
+    pub fn shade<P: Pipeline>(_: &ClosestHit<P, Triangles>, record: &Lambert) -> RadianceFromClosestHit {
+        RadianceFromClosestHit { light: record.albedo }
+    }
+
+    #[raygen]
+    pub fn start<P: HasRay<Radiance> + Pipeline<Params = Frame>>(_: &RayGen<P>) {}
+
+    pipeline! {
+        pub struct PathTracer {
+            params: Frame,
+            raygen: [start],
+            rays: { Radiance { miss: sky } },
+            hitgroups: { Lambert on Triangles => { Radiance { closesthit: shade } } },
+        }
+    }
+}
+
+mod pipeline_program_of_another_module {
+    use crate::common::*;
+
+    mod sky_model {
+        use super::*;
+
+        #[miss]
+        pub fn hazy<P: Pipeline>(_: &Miss<P>) -> RadianceFromMiss {
+            RadianceFromMiss { light: Vec3::ONE }
+        }
+    }
+
+    pipeline! {
+        pub struct PathTracer {
+            params: Frame,
+            raygen: [camera],
+            rays: { Radiance { miss: sky_model::hazy } },
+            hitgroups: { Lambert on Triangles => { Radiance { closesthit: lambert } } },
+        }
+    }
+}
+
+mod pipeline_program_misspelt {
+    use crate::common::*;
+
+    pipeline! {
+        pub struct PathTracer {
+            params: Frame,
+            raygen: [camera],
+            rays: { Radiance { miss: sky } },
+            hitgroups: { Lambert on Triangles => { Radiance { closesthit: lambert } } },
+        }
     }
 }
 

@@ -1,0 +1,86 @@
+//! The programs' types, by names of the macro's own.
+//!
+//! A function without an attribute has no type of its name, and rustc would say so in words that help nobody. So each program
+//! is imported: by a `use`, which takes the function, and its type if it has one; and by a glob, which `use` takes precedence
+//! over, of what stands for those that are not there. What that is asked for, `check::is_program` answers.
+
+use super::emit::program_span;
+use super::parse::Pipeline;
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote, quote_spanned};
+use syn::{Ident, Path};
+
+/// The name of a program's type; paths that differ have names that do.
+pub fn type_of(program: &Path) -> Ident {
+    let mut name = String::from("__program_");
+    for c in super::check::path(program).replace("r#", "").chars() {
+        match c {
+            ':' => name.push_str("_1"),
+            '_' => name.push_str("_0"),
+            c if c.is_alphanumeric() => name.push(c),
+            c => name.push_str(&format!("_{:x}_", c as u32)),
+        }
+    }
+    format_ident!("{name}", span = program_span(program))
+}
+
+/// What makes these names.
+pub fn imports(pipeline: &Pipeline) -> TokenStream {
+    let mut programs: Vec<&Path> = Vec::new();
+    let groups = pipeline.groups.iter().flat_map(|group| &group.rays);
+    let of_groups = groups.flat_map(|p| [&p.closesthit, &p.anyhit, &p.intersection].into_iter().flatten());
+    let others = pipeline.rays.iter().filter_map(|ray| ray.miss.as_ref()).chain(&pipeline.exception);
+    let callables = pipeline.direct_callables.iter().chain(&pipeline.continuation_callables);
+    for program in pipeline.raygen.iter().chain(others).chain(of_groups).chain(callables) {
+        if !programs.iter().any(|p| type_of(p) == type_of(program)) {
+            programs.push(program);
+        }
+    }
+    // A `use` of a name that is not there would fail, so there is a macro of that name.
+    let macros = programs.iter().filter_map(|program| {
+        let name = program.get_ident()?;
+        Some(quote!(macro_rules! #name { () => {} }))
+    });
+    let uses = programs.iter().map(|program| {
+        let name = type_of(program);
+        quote_spanned!(program_span(program)=> use #program as #name;)
+    });
+    let (names, numbers): (Vec<_>, Vec<_>) = programs.iter().map(|p| type_of(p)).zip(0usize..).unzip();
+    quote! {
+        #(#macros)*
+        mod __not_there {
+            #(
+                pub type #names = [(); #numbers];
+                pub const #names: bool = false;
+            )*
+        }
+        use __not_there::*;
+        #(#uses)*
+    }
+}
+
+/// Whether there is a function of the program's name: as a pattern, a function's name is a new variable, which matches all,
+/// and that of the constant in its place is the constant, which does not match.
+pub fn is_function(program: &Path) -> TokenStream {
+    let name = type_of(program);
+    quote_spanned! {program_span(program)=>
+        match true {
+            #name => true,
+            _ => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_that_differ_have_names_that_do() {
+        let paths = ["a", "a::b", "a_b", "::a::b", "a__b", "a_1b", "crate::a", "r#crate_a", "A"];
+        let names: Vec<String> = paths.iter().map(|p| type_of(&syn::parse_str(p).unwrap()).to_string()).collect();
+        for (i, name) in names.iter().enumerate() {
+            assert!(!names[..i].contains(name), "{name} of {}", paths[i]);
+        }
+    }
+}
