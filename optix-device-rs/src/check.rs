@@ -635,16 +635,32 @@ pub const fn bound_field(name: &str, field: &str, size: usize) {
     }
 }
 
-/// An element has no padding.
+/// An element has no padding: `fields` are each one's name, offset and size, in order.
 #[track_caller]
-pub const fn no_padding(name: &str, size: usize, fields: usize) {
-    if size != fields {
-        let text = EMPTY
-            .push("element `")
-            .push(name)
-            .push("` has ")
-            .number(size - fields)
-            .push(" bytes of padding, which a buffer can't hold: order fields by falling alignment, or fill the gap with a field such as `pad: u32`");
-        panic!("{}", text.as_str());
+pub const fn no_padding(name: &str, size: usize, fields: &[(&str, usize, usize)]) {
+    let (mut i, mut end) = (0, 0);
+    while i <= fields.len() {
+        let next = if i < fields.len() { fields[i].1 } else { size };
+        if next > end {
+            let gap = next - end;
+            let text = EMPTY.push("element `").push(name).push("` has a gap of ").number(gap);
+            let text = text.push(if gap == 1 { " byte " } else { " bytes " });
+            let text = if i == 0 {
+                text.push("and no field") // a struct without fields, but with an alignment
+            } else if i < fields.len() {
+                text.push("between `").push(fields[i - 1].0).push("` and `").push(fields[i].0).push("`")
+            } else {
+                text.push("after `").push(fields[i - 1].0).push("`, its last field")
+            };
+            let text = text
+                .push(", which a buffer can't hold: put a field there, such as `pad: [u8; ")
+                .number(gap)
+                .push(if i < fields.len() { "]`, or order the fields by falling alignment" } else { "]`" });
+            panic!("{}", text.as_str());
+        }
+        if i < fields.len() {
+            end = fields[i].1 + fields[i].2;
+        }
+        i += 1;
     }
 }

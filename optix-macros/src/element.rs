@@ -26,18 +26,20 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
             #write(&__field, &mut __bytes[__AT..__AT + __core::mem::size_of::<#ty>()]);
         }}
     });
-    let sizes = model.fields.iter().map(|field| {
+    let places = model.fields.iter().map(|field| {
         let ty = &field.ty;
         let span = place_of(ty);
         let krate = moved(krate, span);
-        quote_spanned!(span=> <#ty as #krate::view::Element>::SIZE)
+        let (name, member) = (field.name(), &field.member);
+        let size = quote_spanned!(span=> <#ty as #krate::view::Element>::SIZE);
+        quote!((#name, __core::mem::offset_of!(#ident, #member), #size))
     });
     let no_padding = (!broken).then(|| {
         let span = place_of(ident);
         let check = quote_spanned!(span=> check::no_padding);
         let krate = moved(krate, span);
         quote_spanned! {span=>
-            const _: () = #krate::#check(#name, __core::mem::size_of::<#ident>(), 0 #(+ #sizes)*);
+            const _: () = #krate::#check(#name, __core::mem::size_of::<#ident>(), &[#(#places),*]);
         }
     });
     let touch = touch(&model);

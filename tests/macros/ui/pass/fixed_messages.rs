@@ -110,4 +110,20 @@ mod pipeline_program_misspelt {
     }
 }
 
+mod element_padding_at_the_end {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Element)]
+    #[repr(C)]
+    pub struct Sample {
+        pub weight: f64,
+        pub position: Vec3,
+        pub pad: [u8; 4],
+    }
+
+    #[derive(Clone, Copy, Element)]
+    #[repr(C)]
+    pub struct Pair(u8, [u8; 1], u16);
+}
+
 fn main() {}
