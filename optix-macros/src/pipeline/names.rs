@@ -39,7 +39,7 @@ pub fn imports(pipeline: &Pipeline) -> TokenStream {
     // A `use` of a name that is not there would fail, so there is a macro of that name.
     let macros = programs.iter().filter_map(|program| {
         let name = program.get_ident()?;
-        Some(quote!(macro_rules! #name { () => {} }))
+        Some(quote!(macro_rules! #name { () => {} } #name! {}))
     });
     let uses = programs.iter().map(|program| {
         let name = type_of(program);
