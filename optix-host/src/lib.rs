@@ -7,6 +7,7 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![warn(missing_docs)]
 
+mod affine;
 mod backend;
 pub mod cpu;
 mod device;

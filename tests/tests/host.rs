@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Vec3};
 use optix_host::scene::{Accel, GeometryError, InstanceFlags};
-use optix_host::{Device, Error, Pipeline, Scene, TriangleMesh};
+use optix_host::{BackendKind, Device, Error, Pipeline, Scene, TriangleMesh};
 use optix_tests::devices;
 use optix_tests::probe::{PTX, Part, ProbeRay, Tracer, ray};
 use path_tracer::shaders::{AreaLight, Lambert, PathTracer};
@@ -46,7 +46,13 @@ fn scenes_and_devices_do_not_mix() {
     says(b.gas([geometry.with(&paint)]).build(), &["another scene"]);
     let gas = a.gas([geometry.with(&paint)]).build().unwrap();
     says(b.ias([gas.at(Affine3A::IDENTITY)]).build(), &["another scene"]);
-    says(a.ias([gas.at(Affine3A::from_scale(Vec3::ZERO))]).build(), &["can't be inverted"]);
+    says(a.ias([gas.at(Affine3A::from_scale(Vec3::ZERO))]).build(), &["can't be inverted", "left out"]);
+    says(a.ias([gas.at(Affine3A::from_scale(Vec3::NAN))]).build(), &["not finite"]);
+    let both = InstanceFlags::DISABLE_ANYHIT | InstanceFlags::ENFORCE_ANYHIT;
+    for more in [InstanceFlags::NONE, InstanceFlags::FLIP_TRIANGLE_FACING] {
+        let flags = [gas.at(Affine3A::IDENTITY), gas.at(Affine3A::IDENTITY).flags(both | more)];
+        says(a.ias(flags).build(), &["instance 1", "DISABLE_ANYHIT and ENFORCE_ANYHIT", "leave one out"]);
+    }
     says(a.ias([gas.at(Affine3A::IDENTITY).id(1 << 28)]).build(), &["28 bits"]);
 
     let pipeline = Pipeline::for_scene(&a).ptx(PTX).build().unwrap();
@@ -65,22 +71,49 @@ fn scenes_and_devices_do_not_mix() {
     pipeline.launch(&frame(&device, world), [1, 1, 1]).unwrap().wait().unwrap();
     // A graph that the pipeline was not specialised to.
     let deeper = a.ias([gas.at(Affine3A::IDENTITY)]).build().unwrap().world().unwrap();
-    says(pipeline.launch(&frame(&device, deeper.clone()), [1, 1, 1]), &["specialised", "a single GAS"]);
-    // One level of instances takes neither less nor more, deeper graphs less.
-    let pipeline = Pipeline::for_scene(&a).ptx(PTX).build().unwrap();
-    pipeline.launch(&frame(&device, deeper.clone()), [1, 1, 1]).unwrap().wait().unwrap();
-    says(pipeline.launch(&frame(&device, gas.world().unwrap()), [1, 1, 1]), &["a GAS", "put the GAS into one"]);
-    let nested = |a: &mut Scene<Probe>, of: &Accel<Probe>| a.ias([of.at(Affine3A::IDENTITY)]).build().unwrap();
-    let one = nested(&mut a, &gas);
-    let two = nested(&mut a, &one);
-    let graphs = [gas.clone(), one, two.clone(), nested(&mut a, &two)];
-    says(pipeline.launch(&frame(&device, two.world().unwrap()), [1, 1, 1]), &["2 levels", "one level of instances"]);
-    for pipeline in [Pipeline::for_scene(&a).ptx(PTX).build().unwrap(), Pipeline::for_scene(&a).build().unwrap()] {
+    says(pipeline.launch(&frame(&device, deeper), [1, 1, 1]), &["specialised", "a single GAS"]);
+}
+
+/// A pipeline traces what it was specialised to: one level of instances is neither less nor more, deeper graphs are what the
+/// scene had.
+#[test]
+fn graphs_that_a_pipeline_traces() {
+    let device = Device::cpu().unwrap();
+    let mut scene = scene(&device);
+    let paint = scene.material(Surface {}).unwrap();
+    let geometry = scene.geometry(TriangleMesh::new(&TRIANGLE)).unwrap();
+    let gas = scene.gas([geometry.with(&paint)]).build().unwrap();
+    let nested = |scene: &mut Scene<Probe>, of: &Accel<Probe>| scene.ias([of.at(Affine3A::IDENTITY)]).build().unwrap();
+    let launch = |pipeline: &Pipeline<Probe>, graph: &Accel<Probe>| {
+        let frame = ProbeFrameHost {
+            rays: device.buffer(&[ray(Vec3::Z, Vec3::NEG_Z)]).unwrap(),
+            hits: device.zeroed(1).unwrap(),
+            tallies: device.zeroed(0).unwrap(),
+            world: graph.world().unwrap(),
+            secondary: 0,
+            offset: 1.0,
+        };
+        pipeline.launch(&frame, [1, 1, 1]).and_then(|launch| launch.wait())
+    };
+    let one = nested(&mut scene, &gas);
+    let pipeline = Pipeline::for_scene(&scene).ptx(PTX).build().unwrap();
+    launch(&pipeline, &one).unwrap();
+    says(launch(&pipeline, &gas), &["a GAS", "put the GAS into one"]);
+    // Its `world()` was taken, so this one traces either.
+    let either = Pipeline::for_scene(&scene).ptx(PTX).build().unwrap();
+    launch(&either, &one).unwrap();
+    launch(&either, &gas).unwrap();
+    let two = nested(&mut scene, &one);
+    says(launch(&pipeline, &two), &["2 levels", "one level of instances"]);
+    says(launch(&either, &two), &["2 levels", "any graph", "(1)"]);
+    let graphs = [gas, one, two.clone(), nested(&mut scene, &two)];
+    for pipeline in
+        [Pipeline::for_scene(&scene).ptx(PTX).build().unwrap(), Pipeline::for_scene(&scene).build().unwrap()]
+    {
         for graph in &graphs {
-            pipeline.launch(&frame(&device, graph.world().unwrap()), [1, 1, 1]).unwrap().wait().unwrap();
+            launch(&pipeline, graph).unwrap();
         }
-        let deepest = nested(&mut a, &graphs[3]).world().unwrap();
-        says(pipeline.launch(&frame(&device, deepest), [1, 1, 1]), &["4 levels", "any graph", "(3)"]);
+        says(launch(&pipeline, &nested(&mut scene, &graphs[3])), &["4 levels", "any graph", "(3)"]);
     }
 }
 
@@ -179,5 +212,46 @@ fn intervals_are_closed() {
         let rays = [at(0.0, 10.0), at(0.0, 1.9), at(2.1, 10.0), at(1.9, 2.1)];
         let met: Vec<_> = tracer.trace(&rays).unwrap().iter().map(|hit| hit.instance == 0).collect();
         assert_eq!(met, [true, false, false, true], "{}", device.description());
+    }
+}
+
+/// An instance whose scale goes to 0, as in an animation, is met as long as there are numbers for it, on every machine.
+#[test]
+fn instances_shrink_as_far_as_numbers_go() {
+    for device in devices::all("tiny instances") {
+        let mut scene = scene(&device);
+        let paint = scene.material(Surface {}).unwrap();
+        let geometry = scene.geometry(TriangleMesh::new(&TRIANGLE)).unwrap();
+        let gas = scene.gas([geometry.with(&paint)]).build().unwrap();
+        let mut worlds = Vec::new();
+        for e in 0..38 {
+            let x: f32 = format!("1e-{e}").parse().unwrap();
+            for scale in [Vec3::splat(x), Vec3::new(x, x, 1.0), Vec3::new(x, 1.0, 1.0)] {
+                worlds
+                    .push((scale, scene.ias([gas.at(Affine3A::from_scale(scale))]).build().unwrap().world().unwrap()));
+            }
+        }
+        let pipeline = Pipeline::for_scene(&scene).ptx(PTX).build().unwrap();
+        for (scale, world) in worlds {
+            let hits = device.zeroed(1).unwrap();
+            let frame = ProbeFrameHost {
+                rays: device.buffer(&[ray(Vec3::Z, Vec3::NEG_Z)]).unwrap(),
+                hits: hits.clone(),
+                tallies: device.zeroed(0).unwrap(),
+                world,
+                secondary: 0,
+                offset: 1.0,
+            };
+            pipeline.launch(&frame, [1, 1, 1]).unwrap().wait().unwrap();
+            // What OptiX does with object space beyond 2^64 is its own.
+            if device.kind() == BackendKind::Cpu || scale.min_element() > 1e-15 {
+                assert_eq!(
+                    (hits.read().unwrap()[0].instance, hits.read().unwrap()[0].t),
+                    (0, 1.0),
+                    "{scale} on {}",
+                    device.description()
+                );
+            }
+        }
     }
 }

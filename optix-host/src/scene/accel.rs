@@ -1,6 +1,7 @@
 //! Acceleration structures: geometry (GAS) and instances (IAS) (guide 5).
 
 use super::{Geometry, GeometryData, InstanceFlags, Scene};
+use crate::affine::Affine;
 use crate::backend::{BuildInput, BuiltAccel, GasInput, IasInput, InstanceInput};
 use crate::{Error, Result};
 use glam::Affine3A;
@@ -281,9 +282,23 @@ impl<P: Pipeline> IasBuilder<'_, P> {
             if instance.id > MAX_28_BITS {
                 return Err(Error::Scene(format!("instance {i} has id {}, more than 28 bits", instance.id)));
             }
-            if !instance.transform.is_finite() || instance.transform.matrix3.determinant() == 0.0 {
+            if let Some([a, b]) = instance.flags.conflict() {
                 return Err(Error::Scene(format!(
-                    "instance {i} has a transform that is not finite or can't be inverted: {}",
+                    "instance {i} has the flags {a} and {b}, which exclude each other (guide 5.4): leave one out"
+                )));
+            }
+            let rows = glam::Mat4::from(instance.transform).transpose().to_cols_array();
+            let transform = core::array::from_fn(|k| rows[k]);
+            if !instance.transform.is_finite() {
+                return Err(Error::Scene(format!(
+                    "instance {i} has a transform that is not finite: {}",
+                    instance.transform
+                )));
+            }
+            if Affine::from_f32(&transform).inverse().is_none() {
+                return Err(Error::Scene(format!(
+                    "instance {i} has a transform that can't be inverted, so rays can't be taken to its space: {}. An instance \
+                     that shrinks to nothing, or to a plane, is left out where it gets there",
                     instance.transform
                 )));
             }
@@ -292,9 +307,8 @@ impl<P: Pipeline> IasBuilder<'_, P> {
                 return Err(Error::Scene(format!("instance {i} has SBT offset {sbt_offset}, more than 28 bits")));
             }
             depth = depth.max(child.depth + 1);
-            let rows = glam::Mat4::from(instance.transform).transpose().to_cols_array();
             instances.push(InstanceInput {
-                transform: core::array::from_fn(|k| rows[k]),
+                transform,
                 id: instance.id,
                 mask: instance.mask,
                 flags: instance.flags,

@@ -22,6 +22,11 @@ impl InstanceFlags {
         self.0
     }
 
+    /// Two of these that exclude each other (guide 5.4), if there are: OptiX says nothing of them.
+    pub(crate) fn conflict(self) -> Option<[&'static str; 2]> {
+        self.contains(Self::DISABLE_ANYHIT | Self::ENFORCE_ANYHIT).then_some(["DISABLE_ANYHIT", "ENFORCE_ANYHIT"])
+    }
+
     /// Whether all flags of the other are among these.
     pub const fn contains(self, other: Self) -> bool {
         self.0 & other.0 == other.0

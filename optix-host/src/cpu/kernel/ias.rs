@@ -6,7 +6,7 @@ use super::aabb::Aabb;
 use super::bvh::Bvh;
 use super::error::BuildError;
 use super::gas::{Gas, SINGLE_LEAF};
-use super::transform::Affine;
+use crate::affine::Affine;
 use crate::scene::InstanceFlags;
 
 /// A structure that rays are traced against.
@@ -188,7 +188,7 @@ fn check(instance: usize, given: &Instance) -> Result<Affine, BuildError> {
     if sum >= LIMIT_28_BITS {
         return Err(BuildError::SbtOffsetSum { instance, offset: given.sbt_offset, sum });
     }
-    if given.flags.contains(InstanceFlags::DISABLE_ANYHIT | InstanceFlags::ENFORCE_ANYHIT) {
+    if given.flags.conflict().is_some() {
         return Err(BuildError::AnyHitFlags { instance });
     }
     let depth = 1 + given.child.depth();

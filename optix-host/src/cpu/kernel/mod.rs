@@ -24,12 +24,12 @@ mod simd;
 mod stack;
 mod state;
 mod trace;
-mod transform;
 mod triangle;
 
 #[cfg(test)]
 mod tests;
 
+pub use crate::affine::Affine;
 pub use aabb::Aabb;
 pub use error::BuildError;
 pub use flags::{GeometryFlags, Verdict, any_hit_verdict, ray_flags};
@@ -40,4 +40,3 @@ pub use program::{AnyHit, Candidate, Hit, Programs, Reporter, Site};
 pub use ray::{Ray, RayQuery};
 pub use simd::{Portable, Simd};
 pub use trace::{BACK_FACE, FRONT_FACE, trace, trace_with};
-pub use transform::Affine;

@@ -1,7 +1,7 @@
 //! The instances between the root of a trace and a primitive.
 
 use super::ias::{Accel, MAX_GRAPH_DEPTH, Placed};
-use super::transform::Affine;
+use crate::affine::Affine;
 
 /// Which instances lead from the structure given to the trace down to a primitive. Copied by value; no heap.
 #[derive(Clone, Copy, Debug)]

@@ -7,6 +7,7 @@ use super::buffer::DeviceBuffer;
 use super::context::Context;
 use super::error::Error;
 use super::sys::{self, OptixTraversableType as Type};
+use crate::affine::Affine;
 
 /// A transform above another traversable. Cheap to clone; keeps its memory and its child alive.
 #[derive(Clone, Debug)]
@@ -27,13 +28,13 @@ impl Transform {
     /// # Errors
     /// [`Error::Invalid`] for a matrix without an inverse.
     pub fn fixed(child: impl Into<Traversable>, matrix: [f32; 12]) -> Result<Self, Error> {
-        let Some(inverse) = invert(matrix) else {
+        let Some(inverse) = Affine::from_f32(&matrix).inverse() else {
             let problem = format!("{matrix:?} has no inverse");
             return Err(Error::invalid("a static transform", problem, "give a matrix of full rank and finite numbers"));
         };
         let child = child.into();
         let mut bytes = Bytes::new(&child);
-        bytes.padding(8).floats(&matrix).floats(&inverse);
+        bytes.padding(8).floats(&matrix).floats(&inverse.to_f32());
         Self::new(child, Type::STATIC_TRANSFORM, bytes, size_of::<sys::OptixStaticTransform>())
     }
 
@@ -118,49 +119,5 @@ impl Bytes {
     fn padding(&mut self, bytes: usize) -> &mut Self {
         self.0.resize(self.0.len() + bytes, 0);
         self
-    }
-}
-
-/// The inverse of an affine row-major 3x4 matrix, computed in double precision.
-fn invert(m: [f32; 12]) -> Option<[f32; 12]> {
-    let [a, b, c, tx, d, e, f, ty, g, h, i, tz] = m.map(f64::from);
-    let cofactors = [e * i - f * h, f * g - d * i, d * h - e * g];
-    let determinant = a * cofactors[0] + b * cofactors[1] + c * cofactors[2];
-    let rows = [
-        [cofactors[0], c * h - b * i, b * f - c * e],
-        [cofactors[1], a * i - c * g, c * d - a * f],
-        [cofactors[2], b * g - a * h, a * e - b * d],
-    ]
-    .map(|row| row.map(|x| x / determinant));
-    let mut inverse = [0.0; 12];
-    for (out, [x, y, z]) in inverse.as_chunks_mut::<4>().0.iter_mut().zip(rows) {
-        *out = [x, y, z, -(x * tx + y * ty + z * tz)].map(|x| x as f32);
-    }
-    inverse.iter().all(|x: &f32| x.is_finite()).then_some(inverse)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_affine_matrix_times_its_inverse_is_the_identity() {
-        let m = [2.0, 1.0, 0.5, 3.0, -1.0, 4.0, 0.0, -2.0, 0.25, 0.0, 5.0, 7.0];
-        let n = invert(m).unwrap();
-        for row in 0..3 {
-            for column in 0..4 {
-                let product: f32 = (0..3).map(|k| m[row * 4 + k] * n[k * 4 + column]).sum();
-                let value = product + if column == 3 { m[row * 4 + 3] } else { 0.0 };
-                let expected = if row == column { 1.0 } else { 0.0 };
-                assert!((value - expected).abs() < 1e-5, "row {row} column {column}: {value}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_flat_or_broken_matrix_has_no_inverse() {
-        assert_eq!(invert([0.0; 12]), None);
-        assert_eq!(invert([f32::NAN; 12]), None);
-        assert_eq!(invert([1.0, 2.0, 3.0, 0.0, 2.0, 4.0, 6.0, 0.0, 0.0, 0.0, 1.0, 0.0]), None);
     }
 }

@@ -7,6 +7,7 @@ use super::super::sys;
 use super::build::{RawInput, build};
 use super::source::{Source, Staging};
 use super::{Accel, AccelOptions, Traversable};
+use crate::affine::Affine;
 use crate::scene::InstanceFlags;
 
 // The bits are OptiX's.
@@ -113,9 +114,13 @@ fn check(index: usize, instance: &Instance, limits: &Limits) -> Result<(), Error
             format!("instance {index} has record offset {}, more than {}", instance.sbt_offset, limits.max_sbt_offset);
         return Err(Error::invalid(WHAT, problem, remedy));
     }
-    if instance.transform.iter().any(|x| !x.is_finite()) {
+    if let Some([a, b]) = instance.flags.conflict() {
+        let problem = format!("instance {index} has the flags {a} and {b}, which exclude each other");
+        return Err(Error::invalid(WHAT, problem, "leave one out"));
+    }
+    if !instance.transform.iter().all(|x| x.is_finite()) || Affine::from_f32(&instance.transform).inverse().is_none() {
         let problem = format!("instance {index} has the transform {:?}", instance.transform);
-        return Err(Error::invalid(WHAT, problem, "give finite numbers"));
+        return Err(Error::invalid(WHAT, problem, "give a matrix of full rank and finite numbers"));
     }
     Ok(())
 }
