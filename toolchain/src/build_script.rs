@@ -3,9 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use crate::compiler;
-use crate::device_build::{self, Built};
+use crate::device_build::Built;
 use crate::error::{Doing, Error};
 use crate::options::Shaders;
+use crate::original::Original;
+use crate::outer::Outer;
 use crate::{ptx, util};
 
 /// What to do about it.
@@ -24,14 +26,17 @@ fn try_compile(shaders: &Shaders) -> Result<(), Error> {
     let out_dir = variable("OUT_DIR")?;
     let mut shaders = shaders.clone();
     shaders.path = variable("CARGO_MANIFEST_DIR")?.join(&shaders.path);
-    // `debug` is the profile `dev` and those that inherit it.
-    shaders.checks.get_or_insert(std::env::var_os("PROFILE").is_some_and(|profile| profile == "debug"));
+    shaders.outer = Outer::of_build_script();
     println!("cargo::rerun-if-env-changed=OPTIX_RUSTC");
 
     let area = util::target_dir(&out_dir).join("optix");
     let (name, text) = match shaders.compile_in(area) {
         Ok(built) => {
             built.inputs.iter().for_each(|input| rerun_if_changed(input));
+            // No file says what the options of the next build are. One that is not there counts as changed.
+            if shaders.outer.as_ref().is_some_and(Outer::has_configuration) {
+                rerun_if_changed(&out_dir.join("none"));
+            }
             let Built { name, text, .. } = built;
             for (function, bytes) in ptx::local_memory(&text) {
                 println!("cargo::warning={function} keeps {bytes} bytes in local memory: {LOCAL_MEMORY}");
@@ -41,7 +46,7 @@ fn try_compile(shaders: &Shaders) -> Result<(), Error> {
         Err(error @ (Error::NoDeviceCompiler { .. } | Error::SwitchedOff)) => {
             println!("cargo::warning=shaders run on the CPU only: {error}");
             compiler::installation_records().iter().for_each(|record| rerun_if_changed(record));
-            let (package, _) = device_build::shader_crate(&shaders.path)?;
+            let package = Original::find(&shaders)?.shaders;
             (package.library.unwrap_or(package.name), String::new())
         }
         Err(error) => return Err(error),

@@ -164,6 +164,13 @@ impl DeviceCompiler {
         Ok(Self { rustc: rustc.to_path_buf(), release, llvm, library, archs, version })
     }
 
+    /// Has a cargo use it.
+    pub(crate) fn used_by<'c>(&self, cargo: &'c mut Command) -> &'c mut Command {
+        cargo.env("RUSTC", &self.rustc).env("RUSTC_BOOTSTRAP", "1");
+        // Also where a configuration file names a wrapper.
+        cargo.env("RUSTC_WRAPPER", "").env("RUSTC_WORKSPACE_WRAPPER", "")
+    }
+
     /// The target triple of the machine that it runs on.
     #[cfg(feature = "cli")]
     pub(crate) fn host(&self) -> Result<&str, Error> {
@@ -233,7 +240,9 @@ pub(crate) fn host_rustc() -> PathBuf {
 }
 
 fn chosen() -> Option<PathBuf> {
-    std::env::var_os("OPTIX_RUSTC").filter(|rustc| !rustc.is_empty()).map(PathBuf::from)
+    let chosen = std::env::var_os("OPTIX_RUSTC").filter(|rustc| !rustc.is_empty()).map(PathBuf::from)?;
+    // Cargo, which runs it, does so in another folder; a name alone is looked for in `PATH`.
+    if chosen.components().count() == 1 { Some(chosen) } else { std::path::absolute(chosen).ok() }
 }
 
 /// Files and small folders that change when a compiler or its sources are installed: what a build without a device

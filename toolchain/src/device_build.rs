@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::blame::{self, Culprit, Missing};
-use crate::cargo;
+use crate::cargo::{self, Place};
 use crate::compiler::{DeviceCompiler, TARGET};
 use crate::dep_info;
 use crate::error::{Doing, Error};
@@ -16,11 +16,14 @@ use crate::metadata::{Package, Workspace};
 #[cfg(feature = "nvvm")]
 use crate::nvvm;
 use crate::options::{Codegen, Shaders};
+use crate::original::Original;
+use crate::outer;
 use crate::ptx;
 use crate::rust_cuda::{self, Backend};
 use crate::sysroot::Sysroot;
+use crate::units::{self, Checks, Unit};
 use crate::util;
-use crate::wrapper::{BUILD_OVERRIDE, PROFILE, Wrapper};
+use crate::wrapper::{BUILD_OVERRIDE, PROFILE, Recipe, Wrapper};
 
 /// A compiled shader crate.
 #[derive(Clone, Debug)]
@@ -39,18 +42,6 @@ pub struct Built {
     pub inputs: Vec<PathBuf>,
 }
 
-/// The shader crate in `path`, and the workspace it is in.
-pub(crate) fn shader_crate(path: &Path) -> Result<(Package, Workspace), Error> {
-    let not = |reason: &str| Error::NotAShaderCrate { path: path.to_path_buf(), reason: reason.to_string() };
-    let dir = std::fs::canonicalize(path).map_err(|_| not("there is no such folder"))?;
-    if !dir.join("Cargo.toml").is_file() {
-        return Err(not("it has no Cargo.toml"));
-    }
-    let workspace = Workspace::of(&dir)?;
-    let package = workspace.packages.iter().find(|package| package.dir() == dir).cloned();
-    Ok((package.ok_or_else(|| not("its Cargo.toml is no package"))?, workspace))
-}
-
 pub(crate) fn build(shaders: &Shaders, area: &Path) -> Result<Built, Error> {
     Session::open(shaders, area)?.build()
 }
@@ -64,9 +55,14 @@ pub(crate) struct Session<'a> {
     pub graph: Workspace,
     /// The folder of this crate with these options.
     pub own: PathBuf,
+    /// Where cargo runs.
+    pub place: Place,
+    /// What generated packages say.
+    pub recipe: Recipe,
     area: PathBuf,
-    /// The lock file of the user's workspace, where there is one.
-    user_lock: PathBuf,
+    key: String,
+    /// The user's manifests and configuration.
+    settings: Vec<PathBuf>,
     resolve: Wrapper,
     sysroot: Sysroot,
     /// Where `rustc` loads its code generator from.
@@ -80,7 +76,8 @@ impl<'a> Session<'a> {
         if shaders.libdevice && !shaders.codegen.links_libdevice() {
             return Err(Error::Libdevice);
         }
-        let (package, workspace) = shader_crate(&shaders.path)?;
+        let original = Original::find(shaders)?;
+        let package = original.shaders.clone();
         let backend = if shaders.codegen == Codegen::RustCuda { Some(Backend::find()?) } else { None };
         let compiler = backend.as_ref().map_or_else(DeviceCompiler::find, |backend| Ok(backend.compiler.clone()))?;
         if !compiler.archs.contains(&shaders.arch) {
@@ -89,17 +86,91 @@ impl<'a> Session<'a> {
         util::create_dir(area)?;
         // Cargo runs in other folders.
         let area = std::fs::canonicalize(area).doing(|| format!("cannot find {}", area.display()))?;
-        let own = area.join("crates").join(format!("{}-{}", package.name, shaders.key(package.dir())));
+        let of_host = match &shaders.outer {
+            Some(outer) => original.units_of_host(outer, &compiler, &area)?,
+            None => Vec::new(),
+        };
+        let features = original.features(shaders, &of_host)?;
+        let key = shaders.key(package.dir(), &original.workspace.root, &features);
+        let own = area.join("crates").join(format!("{}-{key}", package.name));
         let lock = util::lock(&own.join("lock"))?;
 
-        // The dependency graph, with the versions that the user has locked.
-        let user_lock = workspace.root.join("Cargo.lock");
-        let resolve = Wrapper::write(own.join("resolve"), shaders, &package, None)?;
-        lock::seed(&resolve.dir, &std::fs::read_to_string(&user_lock).unwrap_or_default())?;
-        let graph = Workspace::with_dependencies(&resolve.dir)?;
         let generator = backend.as_ref().map(|backend| backend.flags(shaders));
         let sysroot = Sysroot::new(&compiler, &shaders.arch, generator, &area, shaders.quiet);
-        Ok(Self { shaders, package, compiler, graph, own, area, user_lock, resolve, sysroot, backend, _lock: lock })
+        let recipe = Recipe {
+            features,
+            patches: original.patches(),
+            resolver: RESOLVERS[0],
+            checks: Checks::all(shaders.checks.unwrap_or(false)),
+            other_checks: Vec::new(),
+        };
+        // Its graph is found below.
+        let graph = Workspace { packages: Vec::new(), members: Vec::new(), ..original.workspace.clone() };
+        let resolve = Wrapper::write(own.join("resolve"), shaders, &package, &recipe, &key, None)?;
+        lock::seed(&resolve.dir, &std::fs::read_to_string(original.lock()).unwrap_or_default())?;
+        let (place, settings) = (original.place.clone(), original.settings());
+        let mut session = Self {
+            shaders,
+            package,
+            compiler,
+            graph,
+            own,
+            place,
+            recipe,
+            area,
+            key,
+            settings,
+            resolve,
+            sysroot,
+            backend,
+            _lock: lock,
+        };
+        session.agree(&original, &of_host)?;
+        Ok(session)
+    }
+
+    /// Resolves the generated package, with the versions that the user has locked, and makes sure that the device build is made
+    /// from what the user's own build is made from, and checks what that checks.
+    fn agree(&mut self, original: &Original, of_host: &[Unit]) -> Result<(), Error> {
+        self.graph = Workspace::with_dependencies(&self.place, &self.resolve.manifest(), &[])?;
+        let mut differences = original.differences(&self.graph);
+        if !differences.is_empty() {
+            return Err(Error::Differs { package: self.package.name.clone(), differences });
+        }
+        let doing = format!("finding out how {} is compiled", self.package.name);
+        let target_dir = self.target_dir();
+        let mut theirs = of_host.to_vec();
+        if original.is_member {
+            let features: Vec<&str> = self.recipe.features.iter().map(String::as_str).collect();
+            let profile = self.shaders.profile();
+            let mut command = original.build(&self.package, profile, &features, &target_dir);
+            theirs = units::units(self.for_device(&mut command).arg("--lib"), &doing)?;
+            for resolver in RESOLVERS {
+                self.recipe.resolver = resolver;
+                self.resolve = Wrapper::write(
+                    self.own.join("resolve"),
+                    self.shaders,
+                    &self.package,
+                    &self.recipe,
+                    &self.key,
+                    None,
+                )?;
+                let mut command = self.cargo("build", &self.resolve, &target_dir);
+                let ours = units::units(command.arg("--lib"), &doing)?;
+                differences = original.feature_differences(&theirs, &self.graph, &ours);
+                if differences.is_empty() {
+                    break;
+                }
+            }
+            if !differences.is_empty() {
+                return Err(Error::Differs { package: self.package.name.clone(), differences });
+            }
+        }
+        if self.shaders.checks.is_none() {
+            let target = original.is_member.then_some(TARGET);
+            (self.recipe.checks, self.recipe.other_checks) = original.checks(&theirs, target, &self.graph);
+        }
+        Ok(())
     }
 
     /// The lock file of the dependency graph.
@@ -122,6 +193,7 @@ impl<'a> Session<'a> {
                 flags.extend(backend.flags(self.shaders));
             }
         }
+        flags.extend(outer::flags());
         flags.join("\x1f")
     }
 
@@ -150,16 +222,16 @@ impl<'a> Session<'a> {
     fn culprit(&self, missing: &[Missing]) -> Option<Culprit> {
         let shaders = self.shaders.clone().line_info(true).codegen(Codegen::Rustc).quiet(true);
         let session;
-        let session = if self.shaders.key(self.package.dir()) == shaders.key(self.package.dir()) {
+        let session = if self.shaders.line_info && self.shaders.codegen == Codegen::Rustc {
             self
         } else {
             session = Session::open(&shaders, &self.area).ok()?;
             &session
         };
         let wrapper = session.wrapper().ok()?;
-        let ir = session.own.join("blame.ll");
         let mut cargo = session.cargo("rustc", &wrapper, &session.target_dir());
-        cargo.args(["--lib", "--"]).arg(format!("--emit=llvm-ir={}", ir.display()));
+        cargo.args(["--lib", "--", "--emit=llvm-ir=blame.ll"]);
+        let ir = wrapper.dir.join("blame.ll");
         // It may fail in the same way, but after the IR.
         let _ = cargo.stdout(Stdio::null()).stderr(Stdio::null()).status();
         blame::culprit(&util::read(&ir).ok()?, missing, &session.graph.packages, &session.package)
@@ -187,7 +259,7 @@ impl<'a> Session<'a> {
         let local = self.graph.packages.iter().filter(|package| package.source.is_none());
         inputs.extend(local.map(|package| package.manifest.clone()));
         inputs.retain(|file| !file.starts_with(&self.area));
-        inputs.extend(Some(self.user_lock.clone()).filter(|file| file.is_file()));
+        inputs.extend(self.settings.iter().cloned());
         inputs.extend(Some(self.compiler.rustc.clone()).filter(|file| file.is_absolute()));
         Ok(Built {
             name: self.package.library.clone().unwrap_or_else(|| self.package.name.clone()),
@@ -202,7 +274,8 @@ impl<'a> Session<'a> {
     /// The package that is compiled: that of the graph, but with another libm.
     fn wrapper(&self) -> Result<Wrapper, Error> {
         let libm = PatchedLibm::write(&self.area, &self.graph.packages)?;
-        let wrapper = Wrapper::write(self.own.join("wrapper"), self.shaders, &self.package, libm.as_ref())?;
+        let dir = self.own.join("wrapper");
+        let wrapper = Wrapper::write(dir, self.shaders, &self.package, &self.recipe, &self.key, libm.as_ref())?;
         let mut locked = self.locked()?;
         if let Some(libm) = &libm {
             locked = lock::with_patched_libm(&locked, &libm.version, SOFTWARE);
@@ -213,8 +286,7 @@ impl<'a> Session<'a> {
 
     /// The PTX of rustc's own code generator, and where it is.
     fn generate(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(String, PathBuf), Error> {
-        let mut ptx = self.own.join(format!("{}.ptx", wrapper.library));
-        self.run_cargo(wrapper, target_dir, "asm", &ptx)?;
+        let mut ptx = self.emit(wrapper, target_dir, "asm", "ptx")?;
         let mut text = util::read(&ptx)?;
         if self.shaders.ftz {
             text = ptx::ftz::flushed(&text);
@@ -226,8 +298,7 @@ impl<'a> Session<'a> {
 
     /// The PTX of `rustc_codegen_nvvm`, which writes it where a linker would write a library, and where it is.
     fn generate_by_rust_cuda(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(String, PathBuf), Error> {
-        let ptx = self.own.join(format!("{}.rust-cuda.ptx", wrapper.library));
-        self.run_cargo(wrapper, target_dir, "link", &ptx)?;
+        let ptx = self.emit(wrapper, target_dir, "link", "rust-cuda.ptx")?;
         Ok((util::read(&ptx)?, ptx))
     }
 
@@ -235,14 +306,13 @@ impl<'a> Session<'a> {
     #[cfg(feature = "nvvm")]
     fn generate_by_nvvm(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(String, PathBuf), Error> {
         let library = nvvm::choose().map_err(Error::NoNvvm)?;
-        let ir = self.own.join(format!("{}.ll", wrapper.library));
-        self.run_cargo(wrapper, target_dir, "llvm-ir", &ir)?;
+        let ir = self.emit(wrapper, target_dir, "llvm-ir", "ll")?;
         let module = nvvm::translated(self.shaders, &util::read(&ir)?)?;
         // The PTX stays as long as what it was made of does.
         let options = nvvm::options(self.shaders).join(" ");
         let library_path = library.path.to_string_lossy();
         let key = util::hash([module.text.as_str(), &options, &library_path]);
-        let ptx = self.own.join(format!("{}.nvvm.ptx", wrapper.library));
+        let ptx = ir.with_extension("nvvm.ptx");
         let made_of = ptx.with_extension("key");
         let made = if util::read(&made_of).is_ok_and(|old| old == key) { util::read(&ptx).ok() } else { None };
         let text = match made {
@@ -284,46 +354,59 @@ impl<'a> Session<'a> {
         if !self.sysroot.has_alloc() && uses_alloc() { self.sysroot.make_alloc() } else { Ok(()) }
     }
 
-    /// Has rustc emit `what` of the wrapper package to the file `to`.
-    fn run_cargo(&self, wrapper: &Wrapper, target_dir: &Path, what: &str, to: &Path) -> Result<(), Error> {
+    /// Has rustc emit `what` of the wrapper package, and says where that is.
+    fn emit(&self, wrapper: &Wrapper, target_dir: &Path, what: &str, extension: &str) -> Result<PathBuf, Error> {
+        let name = format!("{}.{extension}", wrapper.library);
+        let file = wrapper.dir.join(&name);
         let run = || {
             let mut command = self.cargo("rustc", wrapper, target_dir);
-            let emit = format!("--emit={what}={}", to.display());
+            // Relative to the package, where cargo runs rustc: rustc splits the list at commas, which a path may have.
+            let emit = format!("--emit={what}={name}");
             let doing = format!("compiling {} for the device", self.package.name);
             command.args(["--lib", messages::format(), "--", &emit]);
             messages::run(&mut command, &doing, &self.graph, &self.package)
         };
-        run()?;
-        if !to.is_file() {
-            // Somebody removed it. Cargo does not know of the file, but it does look at the source's time.
+        // Cargo does not know of the file: what it has compiled once is fresh, while the file may be of something else that was
+        // compiled since, or be gone. But it does look at the source's time.
+        let made_of = util::hash([&*util::read(&wrapper.manifest())?, &*util::read(&wrapper.dir.join("Cargo.lock"))?]);
+        let stamp = file.with_extension("made-of");
+        if !file.is_file() || !util::read(&stamp).is_ok_and(|old| old == made_of) {
             let source = wrapper.dir.join("src/lib.rs");
             let text = util::read(&source)?;
             std::fs::write(&source, text).doing(|| format!("cannot write {}", source.display()))?;
-            run()?;
+            let _ = std::fs::remove_file(&stamp);
         }
-        Ok(())
+        run()?;
+        util::write_if_changed(&stamp, &made_of)?;
+        Ok(file)
     }
 
     /// `cargo build` or `cargo rustc` of the wrapper package.
     fn cargo(&self, subcommand: &str, wrapper: &Wrapper, target_dir: &Path) -> Command {
-        let mut command = cargo::command(&wrapper.dir);
-        command
-            .args([subcommand, "--profile", PROFILE, "--target", TARGET])
-            .args(self.shaders.quiet.then_some("--quiet"))
-            .arg("--target-dir")
-            .arg(target_dir)
-            .env("RUSTC", &self.compiler.rustc)
-            .env("RUSTC_BOOTSTRAP", "1")
-            // Also where a configuration file names a wrapper.
-            .env("RUSTC_WRAPPER", "")
-            .env("RUSTC_WORKSPACE_WRAPPER", "")
-            .env("CARGO_ENCODED_RUSTFLAGS", self.rustflags());
+        let mut command = self.place.cargo(subcommand, &wrapper.manifest());
+        command.args(["--profile", PROFILE]).args(self.shaders.quiet.then_some("--quiet"));
+        command.arg("--target-dir").arg(target_dir);
+        self.for_device(&mut command);
         if self.backend.is_some() {
             rust_cuda::prepare(&mut command);
         }
         command
     }
+
+    /// Has a cargo compile for the device.
+    fn for_device<'c>(&self, command: &'c mut Command) -> &'c mut Command {
+        self.by_device_compiler(command).args(["--target", TARGET]).env("CARGO_ENCODED_RUSTFLAGS", self.rustflags())
+    }
+
+    /// Has a cargo use the device compiler.
+    pub fn by_device_compiler<'c>(&self, command: &'c mut Command) -> &'c mut Command {
+        // The user's build folder is locked while this build runs.
+        self.compiler.used_by(command).env("CARGO_BUILD_BUILD_DIR", self.target_dir())
+    }
 }
+
+/// Cargo's ways to choose features, the usual one first. Which one a workspace has, `cargo metadata` does not say.
+const RESOLVERS: [&str; 2] = ["3", "1"];
 
 /// The sources that cargo found the PTX to depend on, those of path dependencies included.
 fn sources(target_dir: &Path, wrapper: &Wrapper) -> Result<Vec<PathBuf>, Error> {

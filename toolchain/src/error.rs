@@ -36,6 +36,13 @@ pub enum Error {
         /// What it lacks.
         reason: String,
     },
+    /// The device build would not be made from what the user's own build is made from.
+    Differs {
+        /// The shader crate.
+        package: String,
+        /// What differs, each in words.
+        differences: Vec<String>,
+    },
     /// A crate needs the standard library.
     NeedsStd(NeedsStd),
     /// A `cargo` or `rustc` that this crate ran has failed; its own diagnostics went to standard error.
@@ -115,6 +122,13 @@ impl fmt::Display for Error {
             Self::NotAShaderCrate { path, reason } => {
                 write!(f, "{} is no shader crate: {reason}", path.display())
             }
+            Self::Differs { package, differences } => write!(
+                f,
+                "host and device would run different code of `{package}`: {}; \"there\" is the workspace that the program is built \
+                 in. Say what makes the difference in a place that every cargo reads: Cargo.toml, Cargo.lock, or \
+                 .cargo/config.toml of the workspace",
+                differences.join("; ")
+            ),
             Self::NeedsStd(needs_std) => write!(f, "{needs_std}"),
             Self::Missing(culprit) => write!(f, "{culprit}"),
             Self::Step { doing, status } | Self::Aborted { doing, status } => {

@@ -24,9 +24,11 @@
 //! | --- | --- |
 //! | find a `rustc` that has library sources and the PTX back end | `compiler` |
 //! | compile `core`, and `alloc` where a crate names it, for `nvptx64-nvidia-cuda`: once per compiler and flags | `sysroot` |
-//! | write a wrapper package around the shader crate, so that its manifest and lock stay untouched | `wrapper` |
+//! | find out what the host program is made from: packages, patches, features, checks | `original`, `outer`, `units` |
+//! | write a wrapper package around the shader crate, so that its manifest and lock stay untouched, with all of that | `wrapper` |
+//! | compare what both resolve to; refuse where it differs | `original` |
 //! | replace software `sqrt`, `floor`, `fma` .. by instructions | `libm` |
-//! | run cargo on the wrapper with the outer cargo's environment removed | `cargo` |
+//! | run cargo on the wrapper where the outer cargo runs, so that configuration counts, but without the outer build's environment | `cargo` |
 //! | show what `rustc` says, and name a crate that needs the standard library | `messages` |
 //! | check that the PTX has entries and nothing that OptiX does not run | [`mod@ptx`] |
 //! | if it has, find the crate, function and line that asks for it | [`blame`] |
@@ -53,9 +55,12 @@ mod metadata;
 #[cfg(feature = "nvvm")]
 pub mod nvvm;
 mod options;
+mod original;
+mod outer;
 pub mod ptx;
 pub mod rust_cuda;
 mod sysroot;
+mod units;
 mod util;
 // Not for build scripts, which they would make slower.
 #[cfg(feature = "cli")]

@@ -1,8 +1,9 @@
 //! What `cargo metadata` says of packages.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
-use crate::cargo;
+use crate::cargo::{self, Place};
 use crate::error::Error;
 use crate::json::Json;
 use crate::util;
@@ -26,12 +27,27 @@ pub struct Package {
     pub has_shaders: bool,
     /// Its features.
     pub features: Vec<String>,
+    /// Which of its other features each feature switches on.
+    pub(crate) implied: Vec<(String, Vec<String>)>,
     /// Whether it is a proc macro.
     pub(crate) is_macro: bool,
     /// Those of its features that are on, in a dependency graph.
     pub(crate) enabled: Vec<String>,
     /// The ids of the packages that its code uses, in a dependency graph.
     pub(crate) uses: Vec<String>,
+    /// The packages that it depends on, build dependencies included and those of tests not, in a dependency graph.
+    pub(crate) links: Vec<Link>,
+    /// The names of the packages that its manifest asks for, each with the source that it is asked of: `None` for a path.
+    pub(crate) asks: Vec<(String, Option<String>)>,
+}
+
+/// A package that another depends on.
+#[derive(Clone, Debug)]
+pub(crate) struct Link {
+    /// What the other calls it in its code.
+    pub name: String,
+    /// The package's id.
+    pub id: String,
 }
 
 impl Package {
@@ -51,19 +67,36 @@ impl Package {
             library: library.and_then(|target| target.get("name").str()).map(|name| name.replace('-', "_")),
             has_shaders: json.get("metadata").get("optix").get("shaders") == &Json::Bool(true),
             features: json.get("features").members().map(|(name, _)| name.to_string()).collect(),
+            implied: json
+                .get("features")
+                .members()
+                .map(|(name, list)| {
+                    (name.to_string(), list.items().iter().filter_map(Json::str).map(str::to_string).collect())
+                })
+                .collect(),
             is_macro: targets.iter().any(|target| is(target, &["proc-macro"])),
             enabled: Vec::new(),
             uses: Vec::new(),
+            links: Vec::new(),
+            asks: json.get("dependencies").items().iter().filter_map(asked).collect(),
         })
     }
 
     /// Adds what a node of the dependency graph says.
     fn with_node(mut self, nodes: &[Json]) -> Self {
         if let Some(node) = nodes.iter().find(|node| node.get("id").str() == Some(&self.id)) {
-            let is_normal =
-                |dep: &&Json| dep.get("dep_kinds").items().iter().any(|kind| kind.get("kind") == &Json::Null);
-            let uses = node.get("deps").items().iter().filter(is_normal).filter_map(|dep| dep.get("pkg").str());
-            self.uses = uses.map(str::to_string).collect();
+            let is_of = |dep: &Json, wanted: &[Option<&str>]| {
+                dep.get("dep_kinds").items().iter().any(|kind| wanted.contains(&kind.get("kind").str()))
+            };
+            for dep in node.get("deps").items() {
+                let (Some(name), Some(id)) = (dep.get("name").str(), dep.get("pkg").str()) else { continue };
+                if is_of(dep, &[None]) {
+                    self.uses.push(id.to_string());
+                }
+                if is_of(dep, &[None, Some("build")]) {
+                    self.links.push(Link { name: name.to_string(), id: id.to_string() });
+                }
+            }
             self.enabled = node.get("features").items().iter().filter_map(Json::str).map(str::to_string).collect();
         }
         self
@@ -74,10 +107,52 @@ impl Package {
         self.manifest.parent().unwrap_or(&self.manifest)
     }
 
+    /// These features of it with those that they switch on, in order.
+    pub(crate) fn with_implied(&self, features: Vec<String>) -> Vec<String> {
+        let mut on = features;
+        let mut at = 0;
+        while let Some(feature) = on.get(at) {
+            let implied = self.implied.iter().filter(|(name, _)| name == feature).flat_map(|(_, implied)| implied);
+            let new: Vec<String> = implied.filter(|f| self.features.contains(f) && !on.contains(f)).cloned().collect();
+            on.extend(new);
+            at += 1;
+        }
+        on.sort_unstable();
+        on.dedup();
+        on
+    }
+
+    /// Its version and where it comes from, for messages.
+    pub(crate) fn origin(&self) -> String {
+        match self.source.as_deref() {
+            None => format!("{} in {}", self.version, self.dir().display()),
+            Some(CRATES_IO) => format!("{} of crates.io", self.version),
+            Some(source) => format!("{} of {source}", self.version),
+        }
+    }
+
+    /// Whether both are the same sources.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        let real = |package: &Self| std::fs::canonicalize(&package.manifest).ok();
+        let both_here = self.source.is_none() && other.source.is_none();
+        self.name == other.name
+            && self.version == other.version
+            && self.source == other.source
+            && (!both_here || real(self) == real(other))
+    }
+
     /// Whether its sources name the crate `alloc`.
     pub(crate) fn may_use_alloc(&self) -> bool {
         util::any_source(&self.dir().join("src"), &|text| text.contains("extern crate alloc"))
     }
+}
+
+/// The source of packages of crates.io.
+pub(crate) const CRATES_IO: &str = "registry+https://github.com/rust-lang/crates.io-index";
+
+/// A dependency in a manifest: whose, and of which source.
+fn asked(dependency: &Json) -> Option<(String, Option<String>)> {
+    Some((dependency.get("name").str()?.to_string(), dependency.get("source").str().map(str::to_string)))
 }
 
 /// A workspace and its members.
@@ -89,30 +164,45 @@ pub struct Workspace {
     pub target_dir: PathBuf,
     /// Its members.
     pub packages: Vec<Package>,
+    /// The ids of its members.
+    pub(crate) members: Vec<String>,
 }
 
 impl Workspace {
     /// The workspace of the package in `dir`; reads manifests only, and touches no lock file.
     pub fn of(dir: &Path) -> Result<Self, Error> {
-        Self::read(dir, &["--no-deps"])
-    }
-
-    /// As [`Workspace::of`], but `packages` is every package of the dependency graph for the device. Writes the lock file.
-    pub(crate) fn with_dependencies(dir: &Path) -> Result<Self, Error> {
-        Self::read(dir, &["--filter-platform", crate::compiler::TARGET])
-    }
-
-    fn read(dir: &Path, args: &[&str]) -> Result<Self, Error> {
         let mut command = cargo::command(dir);
-        command.args(["metadata", "--quiet", "--format-version", "1"]).args(args);
+        command.args(["metadata", "--no-deps"]);
+        Self::read(command, &format!("reading the manifests in {}", dir.display()))
+    }
+
+    /// As [`Workspace::of`], but `packages` is every package of the dependency graph, for the device and further targets.
+    /// Writes the lock file.
+    pub(crate) fn with_dependencies(place: &Place, manifest: &Path, args: &[&str]) -> Result<Self, Error> {
+        let mut command = place.cargo("metadata", manifest);
+        command.args(["--filter-platform", crate::compiler::TARGET]).args(args);
+        Self::read(command, &format!("reading the dependencies of {}", manifest.display()))
+    }
+
+    /// The package with this id.
+    pub(crate) fn package(&self, id: &str) -> Option<&Package> {
+        self.packages.iter().find(|package| package.id == id)
+    }
+
+    fn read(mut command: Command, doing: &str) -> Result<Self, Error> {
+        command.args(["--quiet", "--format-version", "1"]);
         // The caller wants to know where its own builds go.
         for name in ["CARGO_TARGET_DIR", "CARGO_BUILD_TARGET_DIR"] {
             let dir = std::env::var_os(name).and_then(|dir| std::path::absolute(dir).ok());
             command.envs(dir.map(|dir| (name, dir)));
         }
-        let text = cargo::read(&mut command, &format!("reading the manifests in {}", dir.display()))?;
+        Self::parse(&cargo::read(&mut command, doing)?)
+    }
+
+    /// Reads what `cargo metadata` prints.
+    pub(crate) fn parse(text: &str) -> Result<Self, Error> {
         let bad = |reason: String| Error::Output { of: "cargo metadata".into(), reason };
-        let json = Json::parse(&text).map_err(bad)?;
+        let json = Json::parse(text).map_err(bad)?;
         let path = |name: &str| json.get(name).str().map(PathBuf::from).ok_or_else(|| bad(format!("no `{name}`")));
         let nodes = json.get("resolve").get("nodes").items();
         let packages = json.get("packages").items().iter().filter_map(Package::from_json);
@@ -120,6 +210,7 @@ impl Workspace {
             root: path("workspace_root")?,
             target_dir: path("target_directory")?,
             packages: packages.map(|package| package.with_node(nodes)).collect(),
+            members: json.get("workspace_members").items().iter().filter_map(Json::str).map(str::to_string).collect(),
         })
     }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::device_build::{self, Built};
 use crate::error::Error;
+use crate::outer::{self, Outer};
 use crate::sysroot::PANIC;
 use crate::util;
 
@@ -60,9 +61,12 @@ pub struct Shaders {
     pub(crate) line_info: bool,
     /// None: as the profile of the program that is built.
     pub(crate) checks: Option<bool>,
-    pub(crate) features: Vec<String>,
-    pub(crate) default_features: bool,
+    /// None: as the program that is built has them.
+    pub(crate) features: Option<Vec<String>>,
+    pub(crate) default_features: Option<bool>,
     pub(crate) quiet: bool,
+    /// The build of the program, if this is a build script's.
+    pub(crate) outer: Option<Outer>,
 }
 
 impl Shaders {
@@ -80,9 +84,10 @@ impl Shaders {
             libdevice: false,
             line_info: false,
             checks: None,
-            features: Vec::new(),
-            default_features: true,
+            features: None,
+            default_features: None,
             quiet: true,
+            outer: None,
         }
     }
 
@@ -138,23 +143,37 @@ impl Shaders {
     }
 
     /// Whether arithmetic that overflows and a `debug_assert!` that fails end the program, as `overflow-checks` and
-    /// `debug-assertions` of a profile. Default: in a build script as for the program, that is true for `dev` and profiles
-    /// that inherit it; otherwise false. Indices are checked always.
+    /// `debug-assertions` of a profile. Default: as the profile of the program says for each crate, or outside of a build
+    /// script the profile `release`. Indices are checked always.
     pub fn checks(mut self, on: bool) -> Self {
         self.checks = Some(on);
         self
     }
 
-    /// Features of the shader crate to switch on. Default: none but its default features.
+    /// Features of the shader crate to switch on. Default: in a build script those with which the program uses the crate,
+    /// so that this is needed only where it does not use it; otherwise none but the default features. Other features
+    /// than the program's are an error.
     pub fn features<S: Into<String>>(mut self, features: impl IntoIterator<Item = S>) -> Self {
-        self.features = features.into_iter().map(Into::into).collect();
+        self.features = Some(features.into_iter().map(Into::into).collect());
         self
     }
 
-    /// Whether the shader crate's default features are on. Default: true.
+    /// Whether the shader crate's default features are on. Default: as for [`features`](Self::features).
     pub fn default_features(mut self, on: bool) -> Self {
-        self.default_features = on;
+        self.default_features = Some(on);
         self
+    }
+
+    /// The features that were chosen, as options of cargo.
+    pub(crate) fn feature_options(&self) -> Vec<String> {
+        let without_default = self.default_features == Some(false);
+        let features = self.features.as_ref().map(|features| format!("--features={}", features.join(",")));
+        without_default.then(|| "--no-default-features".to_string()).into_iter().chain(features).collect()
+    }
+
+    /// The profile that says what is checked.
+    pub(crate) fn profile(&self) -> &str {
+        self.outer.as_ref().map_or("release", |outer| &outer.profile)
     }
 
     /// Whether to keep silent about progress, as a build script should. Diagnostics are shown always. Default: true.
@@ -219,13 +238,12 @@ impl Shaders {
         flags.into_iter().chain(libm).chain(PANIC.map(String::from)).collect()
     }
 
-    /// Tells builds apart whose intermediate files must not be mixed.
-    pub(crate) fn key(&self, dir: &Path) -> String {
-        let maths = [self.fmad, self.ftz, self.prec_div, self.prec_sqrt, self.libdevice];
-        let switches = [self.line_info, self.default_features];
-        let switches = format!("{maths:?}{switches:?}{:?}{:?}", self.checks, self.codegen);
-        let dir = dir.to_string_lossy();
-        let parts = [dir.as_ref(), self.arch.as_str(), switches.as_str()];
-        util::hash(parts.into_iter().chain(self.features.iter().map(String::as_str)))
+    /// Tells builds apart whose intermediate files must not be mixed: of which crate, in which workspace, with which features.
+    pub(crate) fn key(&self, dir: &Path, root: &Path, features: &[String]) -> String {
+        let maths = [self.fmad, self.ftz, self.prec_div, self.prec_sqrt, self.libdevice, self.line_info];
+        let switches = format!("{maths:?}{:?}{:?}{}", self.checks, self.codegen, self.profile());
+        let (dir, root, flags) = (dir.to_string_lossy(), root.to_string_lossy(), outer::flags());
+        let parts = [dir.as_ref(), root.as_ref(), self.arch.as_str(), switches.as_str()];
+        util::hash(parts.into_iter().chain(flags.iter().chain(features).map(String::as_str)))
     }
 }

@@ -1,7 +1,7 @@
 //! The package around a shader crate.
 //!
 //! A device build needs a profile, a lock file and a patch of its own. Writing those into the user's manifest is out
-//! of the question, so a small package depends on the shader crate by path and re-exports it. Entry points and
+//! of the question, so a small package depends on the shader crate by path and links it. Entry points and
 //! `global_asm!` of the shader crate, and of what it depends on, reach the PTX through link-time optimisation. It also has
 //! the allocator that `rustc` expects of a final crate, although there is no heap.
 
@@ -11,6 +11,8 @@ use crate::error::Error;
 use crate::libm::PatchedLibm;
 use crate::metadata::Package;
 use crate::options::{Codegen, Shaders};
+use crate::original::{Patch, patch_tables};
+use crate::units::Checks;
 use crate::util::{toml_string, write_if_changed};
 
 /// The profile of device builds. It has a name of its own, because cargo configuration files may change `release`.
@@ -21,6 +23,20 @@ const HEAP: &str = include_str!("../templates/heap.rs");
 /// The symbol that is left in the PTX where a program asks for memory.
 pub(crate) const NO_HEAP: &str = "__optix_no_heap";
 
+/// What a generated package has to say so that the shader crate is made of the same as in the user's own build.
+pub(crate) struct Recipe {
+    /// The shader crate's features that are on.
+    pub features: Vec<String>,
+    /// Where packages come from that do not come from where manifests say.
+    pub patches: Vec<Patch>,
+    /// The version of cargo's way to choose features.
+    pub resolver: &'static str,
+    /// What is checked.
+    pub checks: Checks,
+    /// The packages, as `glam@0.34.3`, in which something else is.
+    pub other_checks: Vec<(String, Checks)>,
+}
+
 /// A wrapper package on disk.
 pub(crate) struct Wrapper {
     /// Its folder.
@@ -30,38 +46,45 @@ pub(crate) struct Wrapper {
 }
 
 impl Wrapper {
-    /// Writes the package to `dir`, leaving what is already as it should be.
+    /// Writes the package to `dir`, leaving what is already as it should be. `key` is a part of its name.
     pub fn write(
         dir: PathBuf,
         shaders: &Shaders,
         package: &Package,
+        recipe: &Recipe,
+        key: &str,
         libm: Option<&PatchedLibm>,
     ) -> Result<Self, Error> {
-        let library = format!("optix_ptx_{}_{}", package.name.replace('-', "_"), &shaders.key(package.dir())[..8]);
+        let library = format!("optix_ptx_{}_{}", package.name.replace('-', "_"), &key[..8]);
         let user_library = package.library.as_deref().ok_or_else(|| Error::NotAShaderCrate {
             path: package.dir().to_path_buf(),
             reason: "it has no library; its code belongs into src/lib.rs".into(),
         })?;
-        write_if_changed(&dir.join("Cargo.toml"), &manifest(&library, shaders, package, libm))?;
+        write_if_changed(&dir.join("Cargo.toml"), &manifest(&library, shaders, package, recipe, libm))?;
         // rustc_codegen_nvvm, which does not optimise over crates, would keep a heap that nobody uses.
         let heap = if shaders.codegen == Codegen::RustCuda { "" } else { HEAP };
-        let library_source = format!("#![no_std]\n#![allow(unused_imports)]\npub use {user_library}::*;\n{heap}");
+        // No name of the crate comes into scope: it may have any.
+        let library_source = format!("#![no_std]\nextern crate r#{user_library} as _;\n{heap}");
         write_if_changed(&dir.join("src/lib.rs"), &library_source)?;
         Ok(Self { dir, library })
+    }
+
+    /// Its manifest.
+    pub fn manifest(&self) -> PathBuf {
+        self.dir.join("Cargo.toml")
     }
 }
 
 /// The manifest's table for the dependency on the shader crate.
-pub(crate) fn dependency(shaders: &Shaders, package: &Package) -> String {
-    let features: Vec<String> = shaders.features.iter().map(|feature| toml_string(feature)).collect();
+pub(crate) fn dependency(recipe: &Recipe, package: &Package) -> String {
+    let features: Vec<String> = recipe.features.iter().map(|feature| toml_string(feature)).collect();
     format!(
         "[dependencies.{dependency}]\n\
          path = {dir}\n\
-         default-features = {default_features}\n\
+         default-features = false\n\
          features = [{features}]\n",
         dependency = toml_string(&package.name),
         dir = toml_string(&package.dir().to_string_lossy()),
-        default_features = shaders.default_features,
         features = features.join(", "),
     )
 }
@@ -70,8 +93,9 @@ pub(crate) fn dependency(shaders: &Shaders, package: &Package) -> String {
 pub(crate) const BUILD_OVERRIDE: [&str; 3] = ["opt-level = 0", "codegen-units = 16", "strip = false"];
 
 /// The manifest's table for the profile. Packages that share a folder for builds share proc macros if it is the same.
-pub(crate) fn profile(shaders: &Shaders) -> String {
-    format!(
+pub(crate) fn profile(shaders: &Shaders, recipe: &Recipe) -> String {
+    let Checks { overflow, assertions } = recipe.checks;
+    let mut text = format!(
         "[profile.{PROFILE}]\n\
          inherits = \"release\"\n\
          opt-level = 3\n\
@@ -80,19 +104,37 @@ pub(crate) fn profile(shaders: &Shaders) -> String {
          panic = \"abort\"\n\
          debug = {debug}\n\
          strip = false\n\
-         overflow-checks = {checks}\n\
-         debug-assertions = {checks}\n\
+         overflow-checks = {overflow}\n\
+         debug-assertions = {assertions}\n\
          incremental = false\n\n\
          [profile.{PROFILE}.build-override]\n\
          {build_override}\n",
         build_override = BUILD_OVERRIDE.join("\n"),
         debug = if shaders.line_info { "\"line-directives-only\"" } else { "false" },
-        checks = shaders.checks.unwrap_or(false),
-    )
+    );
+    for (package, Checks { overflow, assertions }) in &recipe.other_checks {
+        text.push_str(&format!(
+            "\n[profile.{PROFILE}.package.{}]\noverflow-checks = {overflow}\ndebug-assertions = {assertions}\n",
+            toml_string(package)
+        ));
+    }
+    text
 }
 
-fn manifest(library: &str, shaders: &Shaders, package: &Package, libm: Option<&PatchedLibm>) -> String {
-    let mut text = format!(
+/// The end of a manifest: what a workspace of the user's would say in its root.
+pub(crate) fn root(recipe: &Recipe, libm: Option<&PatchedLibm>) -> String {
+    let patches = patch_tables(&recipe.patches, libm.map(|libm| libm.dir.as_path()));
+    format!("[workspace]\nresolver = {}\n{patches}", toml_string(recipe.resolver))
+}
+
+fn manifest(
+    library: &str,
+    shaders: &Shaders,
+    package: &Package,
+    recipe: &Recipe,
+    libm: Option<&PatchedLibm>,
+) -> String {
+    format!(
         "# Written by optix-toolchain; see its `wrapper` module.\n\
          [package]\n\
          name = {name}\n\
@@ -103,16 +145,10 @@ fn manifest(library: &str, shaders: &Shaders, package: &Package, libm: Option<&P
          crate-type = [\"staticlib\"]\n\n\
          {dependency}\n\
          {profile}\n\
-         [workspace]\n",
+         {root}",
         name = toml_string(library),
-        dependency = dependency(shaders, package),
-        profile = profile(shaders),
-    );
-    if let Some(libm) = libm {
-        text.push_str(&format!(
-            "\n[patch.crates-io]\nlibm = {{ path = {} }}\n",
-            toml_string(&libm.dir.to_string_lossy())
-        ));
-    }
-    text
+        dependency = dependency(recipe, package),
+        profile = profile(shaders, recipe),
+        root = root(recipe, libm),
+    )
 }

@@ -25,17 +25,6 @@ fn project(name: &str) -> PathBuf {
     dir
 }
 
-/// The target directory of projects, with the device area of the workspace in it.
-fn target_dir() -> PathBuf {
-    let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join("projects");
-    fs::create_dir_all(&dir).expect("writable");
-    fs::create_dir_all(common::area()).expect("writable");
-    // It may be there from the last run; where links can't be made, this test compiles its own `core`.
-    #[cfg(unix)]
-    let _ = std::os::unix::fs::symlink(common::area(), dir.join("optix"));
-    dir
-}
-
 /// Runs cargo in the project.
 fn cargo(project: &Path, args: &[&str], device_compiler: Option<&str>) -> Output {
     let mut command = Command::new(env!("CARGO"));
@@ -43,7 +32,7 @@ fn cargo(project: &Path, args: &[&str], device_compiler: Option<&str>) -> Output
         .args(args)
         .arg("--offline")
         .current_dir(project)
-        .env("CARGO_TARGET_DIR", target_dir())
+        .env("CARGO_TARGET_DIR", common::projects())
         .env("CARGO_TERM_COLOR", "never")
         // A flag that the device compiler does not know: it must not get there.
         .env("RUSTFLAGS", "-Ctarget-feature=+sse4.2");

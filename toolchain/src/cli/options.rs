@@ -58,7 +58,8 @@ impl Options {
             Generator::Nvvm => Codegen::Nvvm,
             Generator::RustCuda => Codegen::RustCuda,
         };
-        let shaders = Shaders::new(path).arch(arch).codegen(codegen).line_info(debug).checks(checks);
+        let shaders = Shaders::new(path).arch(arch).codegen(codegen).line_info(debug);
+        let shaders = if checks { shaders.checks(true) } else { shaders };
         shaders.fmad(fmad).ftz(ftz).prec_div(prec_div).prec_sqrt(prec_sqrt).libdevice(libdevice)
     }
 }

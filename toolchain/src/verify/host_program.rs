@@ -14,8 +14,10 @@ use crate::device_build::Session;
 use crate::error::Error;
 use crate::lock;
 use crate::metadata::Package;
-use crate::util::{toml_string, write_if_changed};
-use crate::wrapper::{PROFILE, dependency, profile};
+use crate::original::taken_from;
+use crate::outer;
+use crate::util::write_if_changed;
+use crate::wrapper::{PROFILE, dependency, profile, root};
 
 const MAIN: &str = include_str!("../../templates/facts/main.rs");
 const DEVICE_CRATE: &str = "optix-device-rs";
@@ -28,20 +30,15 @@ pub(super) fn pipelines(session: &Session<'_>, entries: &[String]) -> Result<Vec
         return Ok(Vec::new());
     };
     let dir = session.own.join("facts");
-    write_if_changed(&dir.join("Cargo.toml"), &manifest(session, device_crate)?)?;
+    write_if_changed(&dir.join("Cargo.toml"), &manifest(session, device_crate))?;
     write_if_changed(&dir.join("src/main.rs"), &source(session, &places))?;
     lock::seed(&dir, &session.locked()?)?;
 
-    let mut command = cargo::command(&dir);
-    command
-        .args(["run", "--quiet", "--profile", PROFILE, "--target", session.compiler.host()?])
-        .arg("--target-dir")
-        .arg(session.target_dir())
-        .env("RUSTC", &session.compiler.rustc)
-        .env("RUSTC_BOOTSTRAP", "1")
-        .env("RUSTC_WRAPPER", "")
-        .env("RUSTC_WORKSPACE_WRAPPER", "")
-        .env("CARGO_ENCODED_RUSTFLAGS", "--cfg\x1foptix_facts");
+    let mut command = session.place.cargo("run", &dir.join("Cargo.toml"));
+    command.args(["--quiet", "--profile", PROFILE, "--target", session.compiler.host()?]);
+    command.arg("--target-dir").arg(session.target_dir());
+    let flags = ["--cfg", "optix_facts"].map(String::from).into_iter().chain(outer::flags());
+    session.by_device_compiler(&mut command).env("CARGO_ENCODED_RUSTFLAGS", flags.collect::<Vec<_>>().join("\x1f"));
     let text = cargo::read(&mut command, &format!("reading the pipelines of {}", session.package.name))?;
     facts::parse(&text)
 }
@@ -53,32 +50,26 @@ fn place(entry: &str) -> Option<&str> {
     (place.len() == 8 && place.chars().all(is_digit)).then_some(place)
 }
 
-fn manifest(session: &Session<'_>, device_crate: &Package) -> Result<String, Error> {
-    let of_device_crate = match device_crate.source.as_deref() {
-        None => format!("path = {}", toml_string(&device_crate.dir().to_string_lossy())),
-        Some(source) if source.starts_with("registry+") => format!("version = \"={}\"", device_crate.version),
-        Some(source) => {
-            let reason = format!("{DEVICE_CRATE} comes from {source}; a path or a registry is needed here");
-            return Err(Error::Output { of: "cargo metadata".into(), reason });
-        }
-    };
-    Ok(format!(
+fn manifest(session: &Session<'_>, device_crate: &Package) -> String {
+    format!(
         "# Written by optix-toolchain; see its `verify` module.\n\
          [package]\n\
          name = \"optix-facts-{}\"\n\
          version = \"0.0.0\"\n\
          edition = \"2024\"\n\
          publish = false\n\n\
+         [dependencies]\n\
+         {DEVICE_CRATE} = {{ {of_device_crate} }}\n\n\
          {dependency}\n\
-         [dependencies.{DEVICE_CRATE}]\n\
-         {of_device_crate}\n\n\
          {profile}\n\
-         [workspace]\n",
+         {root}",
         // Programs of one name would overwrite each other in the folder that builds share.
         session.own.file_name().unwrap_or_default().display(),
-        dependency = dependency(session.shaders, &session.package),
-        profile = profile(session.shaders),
-    ))
+        dependency = dependency(&session.recipe, &session.package),
+        of_device_crate = taken_from(device_crate),
+        profile = profile(session.shaders, &session.recipe),
+        root = root(&session.recipe, None),
+    )
 }
 
 fn source(session: &Session<'_>, places: &BTreeSet<&str>) -> String {
@@ -88,7 +79,7 @@ fn source(session: &Session<'_>, places: &BTreeSet<&str>) -> String {
     let calls = list(&|place| format!("            __optix_facts_{place}(),\n"));
     // The crate is named so that it is linked.
     format!(
-        "{MAIN}mod facts {{\n    extern crate {library} as _;\n    use optix_device_rs::host::PipelineDescription as D;\n\n    \
+        "{MAIN}mod facts {{\n    extern crate r#{library} as _;\n    use ::optix_device_rs::host::PipelineDescription as D;\n\n    \
          unsafe extern \"Rust\" {{\n{declarations}    }}\n\n    pub fn all() -> Vec<&'static D> {{\n        \
          vec![\n{calls}        ]\n    }}\n}}\n"
     )

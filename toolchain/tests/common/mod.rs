@@ -9,6 +9,17 @@ pub fn area() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("optix")
 }
 
+/// The target directory of projects, with the device area of the workspace in it.
+pub fn projects() -> PathBuf {
+    let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join("projects");
+    fs::create_dir_all(&dir).expect("writable");
+    fs::create_dir_all(area()).expect("writable");
+    // It may be there from the last run; where links can't be made, a test compiles its own `core`.
+    #[cfg(unix)]
+    let _ = std::os::unix::fs::symlink(area(), dir.join("optix"));
+    dir
+}
+
 /// An empty folder for the test `name`.
 pub fn folder(name: &str) -> PathBuf {
     let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -28,6 +39,10 @@ pub fn shader_crate(dir: &Path) -> PathBuf {
     // The versions that are downloaded already.
     let lock = Path::new(env!("CARGO_MANIFEST_DIR")).join("../Cargo.lock");
     let _ = fs::copy(lock, shaders.join("Cargo.lock"));
+    // Cargo removes the others, as it would for a user.
+    let mut cargo = std::process::Command::new(env!("CARGO"));
+    cargo.args(["metadata", "--offline", "--format-version", "1"]).current_dir(&shaders);
+    assert!(cargo.output().expect("cargo runs").status.success());
     shaders
 }
 
