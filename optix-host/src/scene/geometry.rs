@@ -44,7 +44,7 @@ pub struct Aabb {
 /// Boxes to be: the bounds of custom primitives, one each.
 #[derive(Clone, Copy, Debug)]
 pub struct Boxes<'a>(
-    /// Finite, `min <= max`.
+    /// Finite, `min <= max`; one without end reaches from `f32::MIN` to `f32::MAX`.
     pub &'a [Aabb],
 );
 
@@ -112,7 +112,7 @@ pub enum GeometryError {
         value: Vec3,
     },
     /// A box that is not one.
-    #[error("box {index} is not finite with min <= max: {min} to {max}")]
+    #[error("box {index} is not finite with min <= max: {min} to {max}; one without end reaches from f32::MIN to f32::MAX")]
     BadBox {
         /// Which box.
         index: usize,

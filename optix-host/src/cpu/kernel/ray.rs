@@ -72,6 +72,15 @@ pub struct ShearRay {
     pub major: f64,
 }
 
+impl ShearRay {
+    /// Of the same ray where all lengths are [`SHRINK`] times as large. That is exact, but for denormal numbers: they lose less
+    /// than `2^-144` of an original length, which the margin of [`Frame::boxes`] covers. So triangles with coordinates up to
+    /// `f32::MAX` are decided as others are, and `t` is the same.
+    pub fn shrunk(&self) -> Self {
+        Self { origin: self.origin.map(|x| x * SHRINK), major: self.major * f64::from(SHRINK), ..*self }
+    }
+}
+
 /// What the box test needs of a ray. See [`Frame::boxes`] for why no box is missed.
 ///
 /// Distances here are *depths*: lengths along the major axis, `t * |d[major]|`, in the units of the space.
@@ -85,6 +94,8 @@ pub struct BoxRay {
     /// Whether the near plane of each axis is the upper one.
     pub backward: [bool; 3],
     pub depth_min: f32,
+    /// Whether differences of coordinates may overflow, so that triangles are tested [shrunk](ShearRay::shrunk).
+    pub far: bool,
 }
 
 /// A ray prepared for one space.
@@ -110,8 +121,10 @@ const SHEARS: [[[Axis; 3]; 2]; 3] = [
 const MARGIN: f32 = 1.0 / (1 << 20) as f32;
 /// Slopes below this are raised to it: at any depth within `R` that moves the ray by less than `2^-40 R`.
 const MIN_SLOPE: f32 = 1.0 / (1u64 << 40) as f32;
-/// Beyond this distance differences of coordinates could overflow; the structure is then missed.
+/// Beyond this distance differences and sums of coordinates could overflow; see [`Frame::far_boxes`] and [`ShearRay::shrunk`].
 const MAX_REACH: f32 = f32::MAX / 8.0;
+/// What far structures are scaled by: twice the largest coordinate is then within [`MAX_REACH`].
+pub const SHRINK: f32 = 1.0 / 32.0;
 
 impl Frame {
     /// Prepares a ray. `None` for one that misses everything: with an element that is not finite, or without direction.
@@ -151,21 +164,29 @@ impl Frame {
             origin,
             inverse,
             backward: inverse.cmplt(Vec3A::ZERO),
-            depth_min: (t * f64::from(length) * (1.0 - DEPTH_SLACK)) as f32,
+            depth_min: ((t * f64::from(length) * (1.0 - DEPTH_SLACK)) as f32).min(f32::MAX),
         })
     }
 
-    /// The largest distance on any axis between the origin and a corner of `bounds`. `None` if the structure with these
-    /// bounds is missed for sure: it is empty, or so far away that differences of coordinates could overflow.
+    /// The largest distance on any axis between the origin and a corner of `bounds`. Infinite for an empty box, and more than
+    /// [`MAX_REACH`] where differences of coordinates may overflow.
     #[inline(always)]
-    pub fn reach(&self, bounds: &Aabb) -> Option<f32> {
+    fn reach(&self, bounds: &Aabb) -> f32 {
         let (low, high) = (Vec3A::from_array(bounds.min), Vec3A::from_array(bounds.max));
-        let reach = (low - self.origin).abs().max((high - self.origin).abs()).max_element();
-        // Infinite for an empty box.
-        (reach <= MAX_REACH).then_some(reach)
+        (low - self.origin).abs().max((high - self.origin).abs()).max_element()
     }
 
-    /// Prepares the box tests of the structure with these `bounds`. `None` if it is missed for sure.
+    /// Whether triangles within these bounds are tested [shrunk](ShearRay::shrunk). `None` if there are none.
+    #[inline(always)]
+    pub fn is_far(&self, bounds: &Aabb) -> Option<bool> {
+        #[cold]
+        fn unless_empty(bounds: &Aabb) -> Option<bool> {
+            (!bounds.is_empty()).then_some(true)
+        }
+        if self.reach(bounds) <= MAX_REACH { Some(false) } else { unless_empty(bounds) }
+    }
+
+    /// Prepares the box tests of the structure with these `bounds`. `None` if it is empty.
     ///
     /// # No box is missed
     ///
@@ -191,18 +212,42 @@ impl Frame {
     /// (see [`Ias`](super::Ias)).
     #[inline(always)]
     pub fn boxes(&self, bounds: &Aabb, slack: f32) -> Option<BoxRay> {
-        let reach = self.reach(bounds)?;
+        let reach = self.reach(bounds);
+        if !(reach <= MAX_REACH) {
+            return self.far_boxes(bounds, slack);
+        }
         let margin = (reach * MARGIN * slack).min(2.0 * reach) + 64.0 * f32::MIN_POSITIVE;
         // The second part is twice what rounding the sums below can take away.
         let margin = Vec3A::splat(margin) + self.origin.abs() * f32::EPSILON;
-        let (above, below) = (self.origin + margin, self.origin - margin);
-        Some(BoxRay {
+        Some(self.box_ray(self.origin + margin, self.origin - margin, false))
+    }
+
+    /// [`Frame::boxes`] where sums and differences may overflow, as they do around planes without end. The margin is the same,
+    /// unless it goes beyond the largest number, which is then as far outwards as boxes are. A plane whose distance overflows is
+    /// infinitely far, on its side: nothing is 0 times infinity or the difference of infinities, so nothing is NaN.
+    #[cold]
+    fn far_boxes(&self, bounds: &Aabb, slack: f32) -> Option<BoxRay> {
+        if bounds.is_empty() {
+            return None;
+        }
+        let (low, high, origin) =
+            (Vec3A::from_array(bounds.min) * 0.5, Vec3A::from_array(bounds.max) * 0.5, self.origin * 0.5);
+        let half = (low - origin).abs().max((high - origin).abs()).max_element();
+        let margin = Vec3A::splat(half * (2.0 * MARGIN * slack).min(4.0)) + self.origin.abs() * f32::EPSILON;
+        let finite = |v: Vec3A| v.clamp(Vec3A::splat(f32::MIN), Vec3A::splat(f32::MAX));
+        Some(self.box_ray(finite(self.origin + margin), finite(self.origin - margin), true))
+    }
+
+    #[inline(always)]
+    fn box_ray(&self, above: Vec3A, below: Vec3A, far: bool) -> BoxRay {
+        BoxRay {
             near_origin: Vec3A::select(self.backward, below, above).to_array(),
             far_origin: Vec3A::select(self.backward, above, below).to_array(),
             inverse: self.inverse.to_array(),
             backward: [self.backward.test(0), self.backward.test(1), self.backward.test(2)],
             depth_min: self.depth_min,
-        })
+            far,
+        }
     }
 
     /// A depth that no hit with `t <= tmax` exceeds: `t` was rounded from its depth, by half an ulp.

@@ -6,13 +6,13 @@ use super::gas::{Content, Gas, block_of};
 use super::ias::{Accel, Ias};
 use super::path::InstancePath;
 use super::program::{AnyHit, Candidate, Hit, Programs, Reporter, Site};
-use super::ray::{BoxRay, Frame, Ray, RayQuery};
+use super::ray::{BoxRay, Frame, Ray, RayQuery, SHRINK, ShearRay};
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
 use super::simd::{Portable, Simd, Task};
 use super::stack::{Entry, Stack};
 use super::state::{Found, State, sbt_index};
-use super::triangle::{self, Block, TriangleHit};
+use super::triangle::{self, Block, Sheared, TriangleHit};
 use crate::scene::InstanceFlags;
 
 /// Hit kinds of triangles (`OptixHitKind`).
@@ -77,7 +77,7 @@ impl<'a, P: Programs> Task for AtRoot<'_, 'a, P> {
         let (state, path) = (&mut State::new(query, tmin, accel), &mut InstancePath::new(accel));
         let place = Place { query, tmin, space: &space, flags: InstanceFlags::NONE, sbt_offset: 0 };
         match accel {
-            Accel::Gas(gas) => simd.run(AtGas { gas, place, state, path, programs }),
+            Accel::Gas(gas) => simd.run(AtGas { gas, place, state, path, programs, far: false }),
             Accel::Ias(ias) => AtIas { ias, place, state, path, programs }.run(simd),
         }
         state.hit(query)
@@ -132,6 +132,8 @@ struct AtGas<'t, 'a, P> {
     state: &'t mut State<'a>,
     path: &'t InstancePath<'a>,
     programs: &'t mut P,
+    /// Whether differences of coordinates may overflow.
+    far: bool,
 }
 
 impl<P: Programs> Task for AtGas<'_, '_, P> {
@@ -143,12 +145,14 @@ impl<P: Programs> Task for AtGas<'_, '_, P> {
         let limit = frame.depth_max(self.state.tmax);
         match &gas.content {
             Content::Triangles { blocks, .. } if gas.bvh.nodes.is_empty() => {
-                if frame.reach(&gas.bvh.bounds).is_some() {
+                if let Some(far) = frame.is_far(&gas.bvh.bounds) {
+                    self.far = far;
                     self.few(simd, blocks, limit);
                 }
             }
             Content::Triangles { blocks, .. } => {
                 let Some(boxes) = frame.boxes(&gas.bvh.bounds, 1.0) else { return };
+                self.far = boxes.far;
                 walk(simd, &gas.bvh, &boxes, limit, |payload, limit| {
                     let (index, used) = block_of(payload);
                     self.block(simd, &blocks[index], index, used, limit)
@@ -181,22 +185,42 @@ impl<P: Programs> AtGas<'_, '_, P> {
     #[inline(always)]
     fn block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
         let frame = &self.place.space.frame;
+        if self.far {
+            return self.far_block(simd, block, index, used, limit);
+        }
         let (met, sheared) = simd.triangles(block, &frame.shear, [frame.depth_min, limit]);
-        let mut lanes = met & used;
         let before = self.state.tmax;
+        self.meet(&frame.shear, met & used, &sheared, block, index);
+        self.state.limit(before, limit, frame)
+    }
+
+    /// [`AtGas::block`] where coordinates are so large that it is done with smaller ones.
+    #[cold]
+    #[inline(never)]
+    fn far_block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
+        let frame = &self.place.space.frame;
+        let shear = frame.shear.shrunk();
+        let (met, sheared) = simd.triangles(&block.shrunk(), &shear, [frame.depth_min * SHRINK, limit * SHRINK]);
+        let before = self.state.tmax;
+        self.meet(&shear, met & used, &sheared, block, index);
+        self.state.limit(before, limit, frame)
+    }
+
+    /// Decides about the triangles of a block in these lanes.
+    #[inline(always)]
+    fn meet(&mut self, shear: &ShearRay, mut lanes: u32, sheared: &Sheared, block: &Block, index: usize) {
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize & (WIDTH - 1);
             lanes &= lanes - 1;
-            let Some(hit) = triangle::hit(&frame.shear, triangle::lane_of(&sheared, lane)) else { continue };
+            let Some(hit) = triangle::hit(shear, triangle::lane_of(sheared, lane)) else { continue };
             let primitive = block.primitives[lane];
             if self.state.admits(hit.t, self.path, primitive) {
                 self.offer(hit, primitive, (index * WIDTH + lane) as u32);
                 if self.state.ended {
-                    return f32::NEG_INFINITY;
+                    return;
                 }
             }
         }
-        if self.state.tmax < before { frame.depth_max(self.state.tmax) } else { limit }
     }
 
     /// Culls a triangle hit that the interval admits, or asks any-hit about it, or accepts it.
@@ -299,7 +323,10 @@ impl<P: Programs> Task for AtIas<'_, '_, P> {
             let before = state.tmax;
             path.push(index);
             match &*instance.child {
-                Accel::Gas(gas) => simd.run(AtGas { gas, place, state: &mut *state, path, programs: &mut *programs }),
+                Accel::Gas(gas) => {
+                    let (state, programs) = (&mut *state, &mut *programs);
+                    simd.run(AtGas { gas, place, state, path, programs, far: false });
+                }
                 Accel::Ias(ias) => {
                     simd.run(AtIas { ias, place, state: &mut *state, path: &mut *path, programs: &mut *programs });
                 }

@@ -28,7 +28,7 @@
 //! depth is thus off by about `e r (1 + 6 |g_x| + 6 |g_y|)`, and never leaves the depths of its corners.
 
 use super::bvh::{Lanes, WIDTH};
-use super::ray::ShearRay;
+use super::ray::{SHRINK, ShearRay};
 
 /// Eight triangles as structure of arrays, `corners[corner][axis][lane]`, in five cache lines: a ray that comes here
 /// mostly finds the block in none of the near caches, and then waits for its lines, not for arithmetic.
@@ -49,6 +49,14 @@ impl Block {
             std::array::from_fn(|axis| Lanes(primitives.map(|p| triangles[p as usize][corner][axis])))
         });
         Self { corners, primitives }
+    }
+
+    /// All coordinates times [`SHRINK`].
+    pub fn shrunk(&self) -> Self {
+        Self {
+            corners: self.corners.map(|corner| corner.map(|axis| Lanes(axis.0.map(|x| x * SHRINK)))),
+            primitives: self.primitives,
+        }
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! Tests of the kernel, and what they share.
 
 mod decisions;
+mod far;
 mod graph;
 mod input;
 mod numerics;

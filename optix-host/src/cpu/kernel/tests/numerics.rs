@@ -92,7 +92,7 @@ fn case(random: &mut Random, spread: (i32, i32)) -> ([[f32; 3]; 3], Ray) {
 
 fn frame(ray: &Ray, corners: &[[f32; 3]]) -> Option<Frame> {
     let frame = Frame::new(&ray.origin, &ray.direction, 0.0)?;
-    frame.reach(&Aabb::around(corners)).map(|_| frame)
+    (frame.is_far(&Aabb::around(corners)) == Some(false)).then_some(frame)
 }
 
 /// The exact test of a triangle in object space, sheared by the operations of the vector kernels.
