@@ -112,7 +112,9 @@ pub enum GeometryError {
         value: Vec3,
     },
     /// A box that is not one.
-    #[error("box {index} is not finite with min <= max: {min} to {max}; one without end reaches from f32::MIN to f32::MAX")]
+    #[error(
+        "box {index} is not finite with min <= max: {min} to {max}; one without end reaches from f32::MIN to f32::MAX"
+    )]
     BadBox {
         /// Which box.
         index: usize,
