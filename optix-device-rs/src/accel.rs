@@ -21,6 +21,7 @@
 //! ```
 
 use crate::data::DeviceData;
+use crate::layout::Layout;
 use crate::machine::check;
 use crate::program::{Context, Here, InstanceHandle};
 use crate::view::{OfLaunch, Slice};
@@ -138,6 +139,7 @@ macro_rules! device_data {
     ($($name:ident)*) => {$(
         // SAFETY: `#[repr(C)]` integers of 64 bits, the same on both machines.
         unsafe impl DeviceData for $name {
+            const LAYOUT: Layout = Layout::of(stringify!($name));
             #[inline]
             fn write_to(&self, bytes: &mut [u8]) {
                 self.to_raw().write_to(bytes);

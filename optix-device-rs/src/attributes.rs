@@ -1,5 +1,7 @@
 //! What a hit carries from intersection to closest-hit and any-hit programs (guide 13.4).
 
+use crate::layout::Layout;
+use crate::sealed::Sealed;
 use crate::words::Words;
 
 /// The attributes of a kind of hit: what `report` takes and what closest-hit and any-hit programs of that geometry read.
@@ -14,6 +16,9 @@ pub trait Attributes: Copy + 'static {
     const NAME: &'static str;
     /// Attribute words, 0 to 8.
     const WORDS: usize;
+    /// How they are made up.
+    #[doc(hidden)]
+    const LAYOUT: Layout = Layout::of("attributes").number(Self::WORDS);
     /// Reads the attributes from their words.
     ///
     /// # Safety
@@ -22,6 +27,20 @@ pub trait Attributes: Copy + 'static {
     /// Writes the attributes to their words.
     fn store(self, words: &mut [u32]);
 }
+
+/// Attributes that an intersection program may report: those of custom primitives, by `#[derive(Attributes)]`.
+///
+/// [`Triangles`] are not among them. Closest-hit and any-hit programs of such hits ask for vertices and faces, which custom
+/// primitives do not have (guide 13.9).
+///
+/// # Safety
+/// No trait of built-in primitives, as [`OnTriangles`](crate::check::OnTriangles), is implemented for them.
+#[diagnostic::on_unimplemented(
+    message = "an intersection program can't report hits that carry `{Self}`",
+    label = "expected attributes of a custom primitive, a struct with `#[derive(Attributes)]`",
+    note = "`Triangles` are hits on built-in triangles, whose vertices a closest-hit program may ask for: declare attributes of your own, `#[derive(Clone, Copy, Attributes)] pub struct BallHit {{ pub uv: Vec2 }}`, and name them in the context, `&Intersection<PathTracer, BallHit>`"
+)]
+pub unsafe trait Reported: Attributes {}
 
 /// A hit on a built-in triangle; its attributes are the barycentrics.
 ///
@@ -50,7 +69,7 @@ impl Attributes for Triangles {
 }
 
 /// A geometry kind as `pipeline!` names it after `on`.
-pub trait Geometry: 'static {
+pub trait Geometry: Sealed + 'static {
     /// Which of the kinds it is.
     const KIND: GeometryKind;
 }
@@ -59,6 +78,8 @@ pub trait Geometry: 'static {
 #[derive(Clone, Copy, Debug)]
 pub enum Custom {}
 
+impl Sealed for Triangles {}
+impl Sealed for Custom {}
 impl Geometry for Triangles {
     const KIND: GeometryKind = GeometryKind::Triangles;
 }

@@ -25,12 +25,14 @@
 //! ```
 
 use crate::data::DeviceData;
+use crate::layout::Layout;
+use crate::sealed::Sealed;
 use crate::view::OfLaunch;
 use crate::words::{FromRaw, Words, words_of_raw};
 use core::marker::PhantomData;
 
 /// A kind of callable: [`Direct`] or [`Continuation`].
-pub trait CallableKind: 'static {
+pub trait CallableKind: Sealed + 'static {
     /// Which of the two it is.
     const IS_CONTINUATION: bool;
 }
@@ -43,6 +45,8 @@ pub enum Direct {}
 #[derive(Clone, Copy, Debug)]
 pub enum Continuation {}
 
+impl Sealed for Direct {}
+impl Sealed for Continuation {}
 impl CallableKind for Direct {
     const IS_CONTINUATION: bool = false;
 }
@@ -57,15 +61,20 @@ impl CallableKind for Continuation {
     label = "expected a function type such as `fn(Vec2, f32) -> Vec3`",
     note = "at most eight arguments, passed and returned by value, each of which can travel in registers (`Words`)"
 )]
-pub trait Signature: 'static {
+pub trait Signature: Sealed + 'static {
     /// The arguments, as a tuple.
     type Arguments: Words;
     /// What comes back.
     type Result: Words;
+    /// How both are made up.
+    #[doc(hidden)]
+    const LAYOUT: Layout =
+        Layout::of("signature").with(<Self::Arguments as Words>::LAYOUT).with(<Self::Result as Words>::LAYOUT);
 }
 
 macro_rules! signature {
     ($(($($argument:ident)*))*) => {$(
+        impl<$($argument: Words,)* R: Words> Sealed for fn($($argument),*) -> R {}
         impl<$($argument: Words,)* R: Words> Signature for fn($($argument),*) -> R {
             type Arguments = ($($argument,)*);
             type Result = R;
@@ -115,7 +124,8 @@ macro_rules! references {
         impl<F, K> Copy for $name<F, K> {}
 
         // SAFETY: `#[repr(C)]` integers, the same on both machines.
-        unsafe impl<F: 'static, K: 'static> DeviceData for $name<F, K> {
+        unsafe impl<F: Signature, K: CallableKind> DeviceData for $name<F, K> {
+            const LAYOUT: Layout = Layout::of(stringify!($name)).with(F::LAYOUT).number(K::IS_CONTINUATION as usize);
             #[inline]
             fn write_to(&self, bytes: &mut [u8]) {
                 self.to_raw().write_to(bytes);
@@ -127,6 +137,8 @@ references!(Callable Callables);
 
 impl<F: 'static, K: 'static> Words for Callable<F, K> {
     const COUNT: usize = 1;
+    // Without the signature, whose arguments may hold such a reference.
+    const LAYOUT: Layout = Layout::of("Callable");
     #[inline(always)]
     fn store(self, words: &mut [u32]) {
         self.index.store(words);

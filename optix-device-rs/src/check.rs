@@ -2,7 +2,7 @@
 //!
 //! Not for users; the macros refer to these by path.
 
-use crate::attributes::{Attributes, Triangles};
+use crate::attributes::{Attributes, Reported, Triangles};
 use crate::payload::{Part, Payload};
 use crate::program::{AccelHandle, Face, HitKind, InstanceHandle, PrimitiveType, Transform, TransformHandle};
 use crate::ray::{Ray, RayFlags, Traversable};
@@ -421,6 +421,22 @@ pub unsafe trait OnTriangles {}
 // SAFETY: the attributes of the built-in intersection.
 unsafe impl OnTriangles for Triangles {}
 
+/// What a program with a mistake in it reports.
+#[derive(Clone, Copy)]
+pub enum NoHits {}
+impl Attributes for NoHits {
+    const NAME: &'static str = "NoHits";
+    const WORDS: usize = 0;
+    unsafe fn load(_: &[u32]) -> Self {
+        unreachable!("nobody reports it")
+    }
+    fn store(self, _: &mut [u32]) {
+        match self {}
+    }
+}
+// SAFETY: there is none of them.
+unsafe impl Reported for NoHits {}
+
 // ---- Pipelines -----------------------------------------------------------------------------------------------------
 
 /// All intersection programs of a hit group report the same attributes.
@@ -583,9 +599,9 @@ pub const fn callable<F: crate::callable::Signature>(name: &str) {
 
 /// A user exception has a code of 30 bits (guide 13.14) and [`MAX_DETAILS`](crate::exception::MAX_DETAILS) words of details at most.
 #[track_caller]
-pub const fn exception(name: &str, variant: &str, code: i64, words: usize) {
+pub const fn exception(name: &str, variant: &str, code: i128, words: usize) {
     let text = EMPTY.push("exception `").push(name).push("::").push(variant);
-    if code < 0 || code >= crate::exception::MAX_CODE as i64 {
+    if code < 0 || code >= crate::exception::MAX_CODE as i128 {
         let text = text.push(
             "` has a code that is not within 0 to 2^30 - 1: the others are OptiX's own; give it another discriminant",
         );
@@ -607,16 +623,17 @@ pub const fn larger(a: usize, b: usize) -> usize {
     if a > b { a } else { b }
 }
 
-/// A record's data is aligned to 16 bytes at most (guide 7.2).
+/// What crosses between host and device is aligned to 16 bytes at most.
 #[track_caller]
-pub const fn record_align(name: &str, align: usize) {
+pub const fn alignment(what: &str, name: &str, align: usize) {
     if align > 16 {
         let text = EMPTY
-            .push("record `")
+            .push(what)
+            .push(" `")
             .push(name)
             .push("` is aligned to ")
             .number(align)
-            .push(" bytes, but OptiX aligns records to 16: lower its `align(..)`");
+            .push(" bytes, but what crosses between host and device to 16 at most, as OptiX aligns records (guide 7.2): lower its `align(..)`");
         panic!("{}", text.as_str());
     }
 }

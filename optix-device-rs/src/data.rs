@@ -1,5 +1,6 @@
 //! Plain data with one layout on host and device.
 
+use crate::layout::Layout;
 use crate::ray::Traversable;
 use crate::view::{Slice, SliceMut, SliceMut2d};
 use glam::{
@@ -22,6 +23,10 @@ use glam::{
     note = "use numbers (`u32`, not `usize`, whose size is the machine's), glam vectors, arrays, `Slice` and its kin, or `#[derive(DeviceData)]` with `#[repr(C)]` on your struct"
 )]
 pub unsafe trait DeviceData: Copy + 'static {
+    /// How its bytes are made up.
+    #[doc(hidden)]
+    const LAYOUT: Layout = Layout::of_size(size_of::<Self>(), align_of::<Self>());
+
     /// Writes the value's bytes to `bytes`, which is `size_of::<Self>()` long and zero: padding stays zero.
     fn write_to(&self, bytes: &mut [u8]);
 
@@ -39,6 +44,7 @@ macro_rules! primitive {
             fn write_to(&self, bytes: &mut [u8]) {
                 bytes.copy_from_slice(&self.to_le_bytes());
             }
+            const LAYOUT: Layout = Layout::of(stringify!($ty));
             const UNIT: usize = size_of::<Self>();
         }
     )*};
@@ -51,6 +57,7 @@ unsafe impl DeviceData for bool {
     fn write_to(&self, bytes: &mut [u8]) {
         bytes[0] = *self as u8;
     }
+    const LAYOUT: Layout = Layout::of("bool");
 }
 
 // SAFETY: a Unicode scalar value here is one there.
@@ -59,6 +66,7 @@ unsafe impl DeviceData for char {
     fn write_to(&self, bytes: &mut [u8]) {
         u32::from(*self).write_to(bytes);
     }
+    const LAYOUT: Layout = Layout::of("char");
 }
 
 // SAFETY: no bytes.
@@ -74,6 +82,7 @@ unsafe impl<T: DeviceData, const N: usize> DeviceData for [T; N] {
             value.write_to(bytes);
         }
     }
+    const LAYOUT: Layout = Layout::of("array").number(N).with(T::LAYOUT);
     const UNIT: usize = T::UNIT;
 }
 
@@ -88,6 +97,7 @@ macro_rules! glam_type {
                 let components = self.$to();
                 components.write_to(&mut bytes[..size_of_val(&components)]);
             }
+            const LAYOUT: Layout = Layout::of(stringify!($ty));
             $(const UNIT: usize = $unit;)?
         }
     )*};
@@ -136,6 +146,7 @@ macro_rules! glam_columns {
                 let columns = $columns;
                 columns.write_to(&mut bytes[..size_of_val(&columns)]);
             }
+            const LAYOUT: Layout = Layout::of(stringify!($ty));
         }
     )*};
 }
@@ -147,9 +158,11 @@ glam_columns! {
 }
 
 macro_rules! view {
-    ($($ty:ty),*) => {$(
+    ($($name:ident),*) => {$(
         // SAFETY: `#[repr(C)]` integers and a pointer, 64 bits on both machines.
-        unsafe impl<T: Element> DeviceData for $ty {
+        unsafe impl<T: Element> DeviceData for $name<T> {
+            // With that of what it shows.
+            const LAYOUT: Layout = Layout::of(stringify!($name)).with(T::LAYOUT);
             #[inline]
             fn write_to(&self, bytes: &mut [u8]) {
                 self.to_raw().write_to(bytes);
@@ -159,7 +172,7 @@ macro_rules! view {
     )*};
 }
 use crate::view::Element;
-view!(Slice<T>, SliceMut<T>, SliceMut2d<T>);
+view!(Slice, SliceMut, SliceMut2d);
 
 // SAFETY: a transparent `u64`.
 unsafe impl DeviceData for Traversable {
@@ -167,19 +180,26 @@ unsafe impl DeviceData for Traversable {
     fn write_to(&self, bytes: &mut [u8]) {
         self.to_raw().write_to(bytes);
     }
+    const LAYOUT: Layout = Layout::of("Traversable");
     const UNIT: usize = u64::UNIT;
 }
 
 /// Data in which no view of device memory is hidden: what a field of parameters or records may be without `#[view]`.
 ///
 /// Made by the derives that make [`DeviceData`], for structs without views.
+///
+/// # Safety
+/// As said: nothing would keep alive what a view in it shows.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` can't be a plain field that crosses from host to device",
     label = "neither plain data nor known to be a view",
     note = "plain data are numbers (`u32`, not `usize`, whose size is the machine's), glam vectors, arrays of these, and your `#[repr(C)]` structs of these with `#[derive(Clone, Copy, DeviceData)]`",
     note = "if the type holds a view (`Slice`, `Traversable`, `Instances`, `Callable` and their kin), perhaps under another name, put `#[view]` on the field"
 )]
-pub trait Plain: DeviceData {
+pub unsafe trait Plain: DeviceData {
+    /// [`DeviceData::LAYOUT`].
+    #[doc(hidden)]
+    const PLAIN_LAYOUT: Layout = Self::LAYOUT;
     /// [`DeviceData::write_to`].
     #[doc(hidden)]
     #[inline(always)]
@@ -189,10 +209,14 @@ pub trait Plain: DeviceData {
 }
 
 macro_rules! plain {
-    ($($ty:ty),*) => {$(impl Plain for $ty {})*};
+    ($($ty:ty),*) => {$(
+        // SAFETY: numbers.
+        unsafe impl Plain for $ty {}
+    )*};
 }
 plain!(u8, i8, u16, i16, u32, i32, u64, i64, f32, f64, bool, char, ());
 plain!(Vec2, Vec3, Vec3A, Vec4, DVec2, DVec3, DVec4, UVec2, UVec3, UVec4, IVec2, IVec3, IVec4);
 plain!(U16Vec2, U16Vec3, U16Vec4, I16Vec2, I16Vec3, I16Vec4, Quat, DQuat, Mat2, Mat3, Mat3A, Mat4, DMat2, DMat3, DMat4);
 plain!(Affine2, Affine3A, DAffine2, DAffine3);
-impl<T: Plain, const N: usize> Plain for [T; N] {}
+// SAFETY: as its elements.
+unsafe impl<T: Plain, const N: usize> Plain for [T; N] {}

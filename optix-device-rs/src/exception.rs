@@ -36,6 +36,7 @@
 //! }
 //! ```
 
+use crate::layout::{Crossing, Layout};
 use crate::pipeline::Throws;
 
 /// The most words of details that an exception carries (guide 13.14).
@@ -58,6 +59,12 @@ pub unsafe trait UserException: Copy + 'static {
     const DETAILS: usize;
     /// Code and name of each variant.
     const VARIANTS: &'static [(u32, &'static str)];
+    /// How codes and details are made up.
+    #[doc(hidden)]
+    const LAYOUT: Layout = Layout::of("exception").number(Self::DETAILS);
+    /// What a host and a device have to agree on.
+    #[doc(hidden)]
+    const CROSSING: Crossing = Crossing::exception::<Self>();
     /// Throws it: its code, and its details in the first of [`MAX_DETAILS`] words.
     #[doc(hidden)]
     #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
@@ -78,9 +85,13 @@ pub trait Thrower {
 }
 
 /// What programs of pipeline `P` throw: [`Throws`], read from the exception's side, which names it in messages.
+///
+/// # Safety
+/// That of [`Throws`].
 #[doc(hidden)]
-pub trait ThrownBy<P>: UserException {}
-impl<P: Throws<E>, E: UserException> ThrownBy<P> for E {}
+pub unsafe trait ThrownBy<P>: UserException {}
+// SAFETY: the pipeline's.
+unsafe impl<P: Throws<E>, E: UserException> ThrownBy<P> for E {}
 
 /// For pipelines whose programs throw nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -49,10 +49,10 @@ impl Layout {
         self.number(numbers.len())
     }
 
-    /// With that of a part.
+    /// With that of a part, which comes after what is there: a step alone would not tell the two apart.
     #[must_use]
     pub const fn with(self, part: Self) -> Self {
-        self.mix(part.0)
+        self.mix(1).mix(part.0)
     }
 
     /// With a field: its name, where it begins, and its own layout.
@@ -121,6 +121,14 @@ impl Crossing {
     /// Of what programs throw.
     pub const fn exception<E: crate::exception::UserException>() -> Self {
         Self::new("exception", E::NAME, E::DETAILS, E::LAYOUT)
+    }
+
+    /// What its size is counted in.
+    pub const fn unit(&self) -> &'static str {
+        match self.what.as_bytes() {
+            b"record" | b"launch parameters" => "bytes",
+            _ => "words",
+        }
     }
 
     /// What the PTX has of `N` types: for each its size and its layout's number.

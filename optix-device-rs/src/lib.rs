@@ -69,6 +69,7 @@ pub mod data;
 pub mod exception;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod host;
+pub mod layout;
 #[doc(hidden)]
 pub mod machine;
 pub mod math;
@@ -83,6 +84,15 @@ pub mod rng;
 pub mod spawn;
 pub mod view;
 pub mod words;
+
+/// What only this crate implements: the traits above it have a fixed set of types.
+mod sealed {
+    #[diagnostic::on_unimplemented(
+        message = "`{Self}` is none of the types that this trait is for",
+        label = "the trait describes types of optix-device-rs, and is implemented for all of them"
+    )]
+    pub trait Sealed {}
+}
 
 /// What the macros' output refers to; not for users.
 #[doc(hidden)]

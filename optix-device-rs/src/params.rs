@@ -62,33 +62,6 @@ pub struct Field {
     pub bound: bool,
 }
 
-/// A number that changes with the layout of a parameter struct: its size and alignment, and name, offset and size of each
-/// field (FNV-1a, 64 bits).
-///
-/// `#[launch_params]` puts it into the PTX as `SYMBOL_layout`, and the host compares it with its own when it builds a pipeline,
-/// so that PTX of another build can't be launched with this build's parameters.
-pub const fn layout_fingerprint(size: usize, align: usize, fields: &[Field]) -> u64 {
-    let mut hash = fnv(fnv(0xcbf2_9ce4_8422_2325, size as u64), align as u64);
-    let mut i = 0;
-    while i < fields.len() {
-        let Field { name, offset, size, .. } = fields[i];
-        let name = name.as_bytes();
-        let mut k = 0;
-        while k < name.len() {
-            hash = fnv(hash, name[k] as u64);
-            k += 1;
-        }
-        hash = fnv(fnv(hash, offset as u64), size as u64);
-        i += 1;
-    }
-    hash
-}
-
-/// A step of FNV-1a with a number in place of a byte.
-const fn fnv(hash: u64, value: u64) -> u64 {
-    (hash ^ value).wrapping_mul(0x0000_0100_0000_01b3)
-}
-
 /// A field that the host may bind to a constant when it builds the pipeline; `Frame::MAX_BOUNCES` for a field
 /// `#[bound] max_bounces`.
 pub struct Bound<P, T> {
@@ -98,8 +71,11 @@ pub struct Bound<P, T> {
 
 impl<P: LaunchParams, T: DeviceData> Bound<P, T> {
     /// Used by `#[launch_params]`.
+    ///
+    /// # Safety
+    /// The field is one of `P`, of type `T`.
     #[doc(hidden)]
-    pub const fn new(field: Field) -> Self {
+    pub const unsafe fn new(field: Field) -> Self {
         assert!(field.size == size_of::<T>() && field.size > 0, "a bound field has at least one byte");
         Self { field, types: core::marker::PhantomData }
     }

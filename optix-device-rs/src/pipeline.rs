@@ -3,6 +3,7 @@
 use crate::attributes::Geometry;
 use crate::callable::{CallableKind, Signature};
 use crate::exception::UserException;
+use crate::layout::Crossing;
 use crate::params::LaunchParams;
 use crate::payload::Payload;
 use crate::record::SbtRecord;
@@ -23,6 +24,12 @@ pub unsafe trait Pipeline: Sized + 'static {
     type Exception: UserException;
     /// How many ray types there are: the SBT stride of every trace call.
     const RAY_TYPES: u32;
+    /// Of the launch parameters.
+    #[doc(hidden)]
+    const PARAMS_CROSSING: Crossing = Crossing::params::<Self::Params>();
+    /// The types that cross between host and device in it.
+    #[doc(hidden)]
+    const CROSSINGS: &'static [Crossing];
     /// All of it as a value, for the host.
     #[cfg(not(target_arch = "nvptx64"))]
     const DESCRIPTION: crate::host::PipelineDescription;

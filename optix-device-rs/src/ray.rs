@@ -1,5 +1,6 @@
 //! Rays and what they are traced against (guide 13.2).
 
+use crate::layout::Layout;
 use crate::view::OfLaunch;
 use crate::words::{FromRaw, Words};
 use glam::Vec3;
@@ -40,6 +41,7 @@ impl core::fmt::Debug for Traversable {
 
 impl Words for Traversable {
     const COUNT: usize = 2;
+    const LAYOUT: Layout = Layout::of("Traversable");
     #[inline(always)]
     fn store(self, words: &mut [u32]) {
         self.0.store(words);
@@ -196,9 +198,13 @@ impl RayFlags {
         self.0 & Self::DISABLE_CLOSESTHIT != 0
     }
 
+    /// From the bits of `OptixRayFlags`; for backends.
+    ///
+    /// # Safety
+    /// No two are set that exclude each other, for which OptiX has no meaning (guide 13.2).
     #[doc(hidden)]
     #[inline(always)]
-    pub const fn from_bits(bits: u32) -> Self {
+    pub const unsafe fn from_bits(bits: u32) -> Self {
         Self(bits)
     }
 }

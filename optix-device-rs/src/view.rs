@@ -30,6 +30,7 @@
 use crate::data::DeviceData;
 #[cfg(not(target_arch = "nvptx64"))]
 use crate::host::shared;
+use crate::layout::Layout;
 use crate::words::{FromRaw, words_of_raw};
 use core::marker::PhantomData;
 use glam::UVec2;
@@ -56,6 +57,9 @@ pub unsafe trait Element: DeviceData {
     /// The size, where only an element will do; for the derive.
     #[doc(hidden)]
     const SIZE: usize = size_of::<Self>();
+    /// [`DeviceData::LAYOUT`], where only an element will do.
+    #[doc(hidden)]
+    const ELEMENT_LAYOUT: Layout = Self::LAYOUT;
     /// [`DeviceData::write_to`], where only an element will do; for the derive.
     #[doc(hidden)]
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! Values as 32-bit words, the way payload and attribute registers carry them (guide 13.3, 13.4).
 
+use crate::layout::Layout;
 use glam::{
     Affine2, Affine3A, DAffine2, DAffine3, DMat2, DMat3, DMat4, DQuat, DVec2, DVec3, DVec4, I16Vec2, I16Vec3, I16Vec4,
     IVec2, IVec3, IVec4, Mat2, Mat3, Mat3A, Mat4, Quat, U16Vec2, U16Vec3, U16Vec4, UVec2, UVec3, UVec4, Vec2, Vec3,
@@ -46,6 +47,9 @@ impl WordBuffer {
 pub trait Words: Copy + 'static {
     /// How many 32-bit words the value takes.
     const COUNT: usize;
+    /// How its words are made up.
+    #[doc(hidden)]
+    const LAYOUT: Layout = Layout::of("words").number(Self::COUNT);
     /// Writes the value to `words`, which are `COUNT` long.
     fn store(self, words: &mut [u32]);
     /// Reads the value back from `words`, which are `COUNT` long.
@@ -78,6 +82,7 @@ macro_rules! one_word {
     ($($ty:ty: |$value:ident| $to:expr, |$word:ident| $from:expr;)*) => {$(
         impl Words for $ty {
             const COUNT: usize = 1;
+            const LAYOUT: Layout = Layout::of(stringify!($ty));
             #[inline(always)]
             fn store(self, words: &mut [u32]) {
                 let $value = self;
@@ -113,6 +118,7 @@ macro_rules! two_words {
     ($([$($generics:tt)*] $ty:ty: |$value:ident| $to:expr, |$bits:ident| $from:expr;)*) => {$(
         impl<$($generics)*> Words for $ty {
             const COUNT: usize = 2;
+            const LAYOUT: Layout = Layout::of(stringify!($ty));
             #[inline(always)]
             fn store(self, words: &mut [u32]) {
                 let $value = self;
@@ -154,6 +160,7 @@ macro_rules! words_of_raw {
     ($([$($generics:tt)*] $ty:ty: $raw_ty:ty, |$raw:ident| $from:expr;)*) => {$(
         impl<$($generics)*> $crate::words::Words for $ty {
             const COUNT: usize = <$raw_ty as $crate::words::Words>::COUNT;
+            const LAYOUT: $crate::layout::Layout = $crate::layout::Layout::of(stringify!($ty));
             #[inline(always)]
             fn store(self, words: &mut [u32]) {
                 $crate::words::Words::store(self.to_raw(), words);
@@ -181,6 +188,7 @@ impl Words for () {
 
 impl<T: Words, const N: usize> Words for [T; N] {
     const COUNT: usize = T::COUNT * N;
+    const LAYOUT: Layout = Layout::of("array").number(N).with(T::LAYOUT);
     #[inline(always)]
     fn store(self, words: &mut [u32]) {
         // `enumerate` and `+` check for overflow where that is asked for, and the array stays in memory then.
@@ -200,6 +208,7 @@ impl<T: Words, const N: usize> Words for [T; N] {
 
 impl<T: Words> Words for Option<T> {
     const COUNT: usize = 1 + T::COUNT;
+    const LAYOUT: Layout = Layout::of("option").with(T::LAYOUT);
     #[inline(always)]
     fn store(self, words: &mut [u32]) {
         self.is_some().store(part_mut(words, 0, 1));
@@ -221,6 +230,7 @@ macro_rules! tuple {
         #[diagnostic::do_not_recommend]
         impl<$($name: Words),*> Words for ($($name,)*) {
             const COUNT: usize = 0 $(+ $name::COUNT)*;
+            const LAYOUT: Layout = Layout::of("tuple")$(.with($name::LAYOUT))*;
             #[inline(always)]
             fn store(self, words: &mut [u32]) {
                 let ($($name,)*) = self;
@@ -250,6 +260,7 @@ macro_rules! as_array {
     ($($ty:ty => [$of:ty; $n:literal], $to:ident, |$array:ident| $from:expr;)*) => {$(
         impl Words for $ty {
             const COUNT: usize = <[$of; $n]>::COUNT;
+            const LAYOUT: Layout = Layout::of(stringify!($ty));
             #[inline(always)]
             fn store(self, words: &mut [u32]) {
                 let array: [$of; $n] = self.$to();

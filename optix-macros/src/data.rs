@@ -13,15 +13,23 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
         return errors.into_tokens();
     };
     model.require_repr_c("a device-data struct", &mut errors);
-    let data = device_data(&model);
+    let data = device_data(&model, "struct");
     let twin = twin(&model, &mut errors);
     let items = twin.items;
     let errors = errors.into_tokens();
     quote!(#errors #data #items)
 }
 
-/// The impl of `DeviceData`: each field at its offset.
-pub fn device_data(model: &Struct) -> TokenStream {
+/// Asserts that a struct, which messages call `what`, is aligned as memory of either machine is.
+pub fn alignment(model: &Struct, what: &str) -> TokenStream {
+    let (ident, name, span) = (&model.ident, model.name(), place_of(&model.ident));
+    let krate = moved(&device_crate(), span);
+    let check = quote_spanned!(span=> #krate::check::alignment);
+    quote_spanned!(span=> const _: () = #check(#what, #name, __core::mem::align_of::<#ident>());)
+}
+
+/// The impl of `DeviceData`: each field at its offset. `what` the struct is called in messages.
+pub fn device_data(model: &Struct, what: &str) -> TokenStream {
     let (krate, ident) = (&device_crate(), &model.ident);
     let writes = model.fields.iter().map(|field| {
         let (member, ty) = (&field.member, &field.ty);
@@ -38,11 +46,22 @@ pub fn device_data(model: &Struct) -> TokenStream {
             #write(&__field, &mut __bytes[__AT..__AT + __core::mem::size_of::<#ty>()]);
         }}
     });
-    let (touch, bounds) = (touch(model), struct_bounds(model));
+    let (touch, bounds, alignment) = (touch(model), struct_bounds(model), alignment(model, what));
     let views = model.fields.iter().filter(|field| field.view).map(|field| {
         let (ty, span) = (&field.ty, place_of(&field.ty));
         let krate = moved(krate, span);
         quote_spanned!(span=> const _: () = #krate::check::view::<#ty>();)
+    });
+    let layout = model.fields.iter().map(|field| {
+        let (member, ty, name) = (&field.member, &field.ty, field.name());
+        let span = place_of(ty);
+        let krate = moved(krate, span);
+        let layout = if field.view {
+            quote_spanned!(span=> <#ty as #krate::data::DeviceData>::LAYOUT)
+        } else {
+            quote_spanned!(span=> <#ty as #krate::data::Plain>::PLAIN_LAYOUT)
+        };
+        quote!(.field(#name, __core::mem::offset_of!(#ident, #member), #layout))
     });
     block(quote! {
         // SAFETY: the layout is C's, each field has a layout that host and device share, and padding is not written.
@@ -52,7 +71,12 @@ pub fn device_data(model: &Struct) -> TokenStream {
             fn write_to(&self, __bytes: &mut [__core::primitive::u8]) {
                 #(#writes)*
             }
+            const LAYOUT: #krate::layout::Layout = #krate::layout::Layout::of_size(
+                __core::mem::size_of::<Self>(),
+                __core::mem::align_of::<Self>(),
+            ) #(#layout)*;
         }
+        #alignment
         #touch
         #(#views)*
     })
@@ -120,8 +144,9 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
     if !model.has_views() {
         let copy = copy_bound(ident);
         let items = block(quote! {
+            // SAFETY: no field is a view, and each is plain itself.
             #[automatically_derived]
-            impl #krate::data::Plain for #ident #copy {}
+            unsafe impl #krate::data::Plain for #ident #copy {}
             #[cfg(not(target_arch = "nvptx64"))]
             #[automatically_derived]
             unsafe impl #krate::host::Twin for #ident #copy {

@@ -1,6 +1,6 @@
 //! `#[derive(Element)]`: what a device buffer holds.
 
-use crate::data::touch;
+use crate::data::{alignment, touch};
 use crate::shape::Struct;
 use crate::support::{Errors, block, device_crate, moved, place_of};
 use proc_macro2::TokenStream;
@@ -42,7 +42,14 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
             const _: () = #krate::#check(#name, __core::mem::size_of::<#ident>(), &[#(#places),*]);
         }
     });
-    let touch = touch(&model);
+    let layout = model.fields.iter().map(|field| {
+        let (member, ty, name) = (&field.member, &field.ty, field.name());
+        let span = place_of(ty);
+        let krate = moved(krate, span);
+        let layout = quote_spanned!(span=> <#ty as #krate::view::Element>::ELEMENT_LAYOUT);
+        quote!(.field(#name, __core::mem::offset_of!(#ident, #member), #layout))
+    });
+    let (touch, alignment) = (touch(&model), alignment(&model, "element"));
     let errors = errors.into_tokens();
     let items = block(quote! {
             // SAFETY: the layout is C's, and each field is an `Element`.
@@ -52,12 +59,17 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
                 fn write_to(&self, __bytes: &mut [__core::primitive::u8]) {
                     #(#writes)*
                 }
+                const LAYOUT: #krate::layout::Layout = #krate::layout::Layout::of_size(
+                    __core::mem::size_of::<Self>(),
+                    __core::mem::align_of::<Self>(),
+                ) #(#layout)*;
             }
             // SAFETY: any bytes are valid for each field, and there is no padding (asserted below).
             #[automatically_derived]
             unsafe impl #krate::view::Element for #ident {}
+            // SAFETY: elements have no views.
             #[automatically_derived]
-            impl #krate::data::Plain for #ident {}
+            unsafe impl #krate::data::Plain for #ident {}
             #[cfg(not(target_arch = "nvptx64"))]
             #[automatically_derived]
             unsafe impl #krate::host::Twin for #ident {
@@ -68,6 +80,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
                 }
             }
             #no_padding
+            #alignment
             #touch
     });
     quote!(#errors #items)

@@ -1,16 +1,18 @@
 //! `#[derive(UserException)]`.
 
 use crate::data::copy_bound;
+use crate::shape::{Repr, differs};
+use crate::source::target_dependent;
 use crate::support::{Errors, block, device_crate, moved, name, place_of, ungroup};
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote, quote_spanned};
+use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::{Data, DataEnum, DeriveInput, Ident, Index, Member, Type, Variant};
 
 pub fn derive(input: &DeriveInput) -> TokenStream {
     let mut errors = Errors::default();
     let what = "what programs throw";
-    let variants = match &input.data {
-        Data::Enum(DataEnum { variants, .. }) => variants,
+    let (variants, variants_span) = match &input.data {
+        Data::Enum(DataEnum { variants, brace_token, .. }) => (variants, brace_token.span.join()),
         Data::Struct(data) => {
             errors.at(
                 data.struct_token,
@@ -32,6 +34,9 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     if variants.is_empty() {
         errors.at(&input.ident, format!("`{}` has no variants, so it could never be thrown", input.ident));
     }
+    if let Some(attribute) = target_dependent(variants_span) {
+        errors.at(&input.ident, differs(what, &attribute));
+    }
     for ty in variants.iter().flat_map(|variant| &variant.fields).map(|field| &field.ty) {
         if matches!(ungroup(ty), Type::Reference(_)) {
             errors.at(ty, "details of an exception are values: the launch index they were borrowed from has ended");
@@ -40,18 +45,24 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     if !errors.is_empty() {
         return errors.into_tokens();
     }
-    emit(&input.ident, &variants.iter().collect::<Vec<_>>())
+    emit(&input.ident, &Repr::of(&input.attrs), &variants.iter().collect::<Vec<_>>())
 }
 
-fn emit(ident: &Ident, variants: &[&Variant]) -> TokenStream {
+fn emit(ident: &Ident, repr: &Repr, variants: &[&Variant]) -> TokenStream {
     let (krate, enum_name, copy) = (&device_crate(), name(ident), copy_bound(ident));
     let mut consts = TokenStream::new();
     let (mut names, mut throw, mut decode, mut most) = (Vec::new(), Vec::new(), Vec::new(), quote!(0));
+    let mut layouts = Vec::new();
+    let integer = repr.integer.as_ref().map_or(quote!(isize), ToTokens::to_token_stream);
     for (i, variant) in variants.iter().enumerate() {
         let (code, words) = (format_ident!("__CODE_{i}"), format_ident!("__WORDS_{i}"));
         // As rustc counts discriminants.
+        // In the widest type there is, so that none is cut to one that is allowed.
         let value = match (&variant.discriminant, i.checked_sub(1)) {
-            (Some((_, value)), _) => quote!({ #value } as __core::primitive::i64),
+            (Some((_, value)), _) => quote!({
+                const __VALUE: __core::primitive::#integer = #value;
+                __VALUE as __core::primitive::i128
+            }),
             (None, Some(before)) => {
                 let before = format_ident!("__CODE_{before}");
                 quote!(#before + 1)
@@ -59,7 +70,8 @@ fn emit(ident: &Ident, variants: &[&Variant]) -> TokenStream {
             (None, None) => quote!(0),
         };
         let mut end = quote!(0);
-        let (mut patterns, mut stores, mut loads) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut patterns, mut stores, mut loads, mut variant_layout) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (k, field) in variant.fields.iter().enumerate() {
             let (ty, span) = (&field.ty, place_of(&field.ty));
             let member = match &field.ident {
@@ -73,7 +85,8 @@ fn emit(ident: &Ident, variants: &[&Variant]) -> TokenStream {
             };
             let (store, load, count) = (function("store"), function("load"), function("COUNT"));
             patterns.push(quote!(#member: #value));
-            let begin = end.clone();
+            let (begin, layout) = (end.clone(), function("LAYOUT"));
+            variant_layout.push(quote!(.field("", #begin, #layout)));
             end = quote!(#end + #count);
             stores.push(quote!(#store(#value, #krate::words::part_mut(__details, #begin, #end));));
             loads.push(quote!(#member: unsafe { #load(#krate::words::part(__words, #begin, #end)) }));
@@ -81,12 +94,13 @@ fn emit(ident: &Ident, variants: &[&Variant]) -> TokenStream {
         let (variant_ident, variant_name, span) = (&variant.ident, name(&variant.ident), place_of(&variant.ident));
         let there = moved(krate, span);
         consts.extend(quote! {
-            const #code: __core::primitive::i64 = #value;
+            const #code: __core::primitive::i128 = #value;
             const #words: __core::primitive::usize = #end;
         });
         consts.extend(quote_spanned! {span=>
             const _: () = #there::check::exception(#enum_name, #variant_name, #code, #words);
         });
+        layouts.push(quote!(.text(#variant_name).number(#code as __core::primitive::usize) #(#variant_layout)*));
         names.push(quote!((#code as __core::primitive::u32, #variant_name)));
         throw.push(quote!(Self::#variant_ident { #(#patterns),* } => {
             #(#stores)*
@@ -102,6 +116,7 @@ fn emit(ident: &Ident, variants: &[&Variant]) -> TokenStream {
             unsafe impl #krate::exception::UserException for #ident #copy {
                 const NAME: &'static __core::primitive::str = #enum_name;
                 const DETAILS: __core::primitive::usize = #most;
+                const LAYOUT: #krate::layout::Layout = #krate::layout::Layout::of("exception") #(#layouts)*;
                 const VARIANTS: &'static [(__core::primitive::u32, &'static __core::primitive::str)] = &[#(#names),*];
                 #[inline(always)]
                 #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
@@ -116,7 +131,7 @@ fn emit(ident: &Ident, variants: &[&Variant]) -> TokenStream {
                     __code: __core::primitive::u32,
                     __words: &[__core::primitive::u32],
                 ) -> __core::option::Option<Self> {
-                    match __code as __core::primitive::i64 {
+                    match __code as __core::primitive::i128 {
                         #(#decode,)*
                         _ => __core::option::Option::None,
                     }

@@ -20,6 +20,7 @@ mod pipeline;
 mod program;
 mod record;
 mod shape;
+mod source;
 mod support;
 mod words;
 

@@ -37,7 +37,7 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
         return quote!(#errors #item);
     };
     check(&model, &mut errors);
-    let data = device_data(&model);
+    let data = device_data(&model, "launch-parameter struct");
     let twin = twin(&model, &mut errors);
     let (host, twin) = (twin.host, twin.items);
     let bounds = bounds(&model);
@@ -151,7 +151,8 @@ fn bounds(model: &Struct) -> TokenStream {
             });
             Some(quote! {
                 #[doc = #doc]
-                #vis const #name: #krate::params::Bound<#ident, #ty> = #krate::params::Bound::new(#value);
+                // SAFETY: the field is of this struct and this type.
+                #vis const #name: #krate::params::Bound<#ident, #ty> = unsafe { #krate::params::Bound::new(#value) };
             })
         })
         .collect();

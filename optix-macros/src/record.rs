@@ -2,9 +2,9 @@
 
 use crate::data::{device_data, struct_bounds, twin};
 use crate::shape::Struct;
-use crate::support::{Errors, block, device_crate, moved, place_of};
+use crate::support::{Errors, block, device_crate};
 use proc_macro2::TokenStream;
-use quote::{quote, quote_spanned};
+use quote::quote;
 use syn::DeriveInput;
 
 pub fn derive(input: &DeriveInput) -> TokenStream {
@@ -14,18 +14,12 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     };
     model.require_repr_c("an SBT record", &mut errors);
     let (krate, ident, name) = (&device_crate(), &model.ident, model.name());
-    let data = device_data(&model);
+    let data = device_data(&model, "record");
     let twin = twin(&model, &mut errors);
     let (host, items) = (twin.host, twin.items);
-    let span = place_of(ident);
-    let moved = moved(krate, span);
-    let align = quote_spanned! {span=>
-        const _: () = #moved::check::record_align(#name, __core::mem::align_of::<#ident>());
-    };
     let bounds = struct_bounds(&model);
     let errors = errors.into_tokens();
     let record = block(quote! {
-        #align
         #[automatically_derived]
         impl #krate::record::SbtRecord for #ident #bounds {
             const NAME: &'static __core::primitive::str = #name;

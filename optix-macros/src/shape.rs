@@ -1,6 +1,7 @@
 //! Structs as the derives see them.
 
-use crate::support::{Errors, mentions, name, ungroup};
+use crate::source::target_dependent;
+use crate::support::{Errors, cfg_of, mentions, name, ungroup};
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, quote};
 use syn::spanned::Spanned;
@@ -93,6 +94,14 @@ fn is_no_field(field: &syn::Field, of: &Ident, what: &str, errors: &mut Errors) 
     true
 }
 
+/// Why a field that only one machine has is refused.
+pub fn differs(what: &str, attribute: &str) -> String {
+    format!(
+        "`{attribute}` makes {what} another one on the device than on the host, and what one writes the other reads; write two \
+         types for two uses, or the field for both machines"
+    )
+}
+
 impl Struct {
     /// Reads a struct. `what` is what it is to become: "a payload", "an SBT record".
     pub fn parse(input: &DeriveInput, what: &str, tuples: bool, errors: &mut Errors) -> Option<Self> {
@@ -113,6 +122,11 @@ impl Struct {
             );
             errors.at(&input.generics, message);
             return None;
+        }
+        // What an attribute's macro sees, it reports itself.
+        let unseen = !data.fields.iter().any(|field| cfg_of(&field.attrs).is_some());
+        if unseen && let Some(attribute) = target_dependent(data.fields.span()) {
+            errors.at(&input.ident, differs(what, &attribute));
         }
         let form = match &data.fields {
             Fields::Named(_) => Form::Named,
@@ -189,10 +203,14 @@ impl Field {
     }
 }
 
+const INTEGERS: [&str; 12] = ["u8", "i8", "u16", "i16", "u32", "i32", "u64", "i64", "u128", "i128", "usize", "isize"];
+
 /// What `#[repr(..)]` says.
 pub struct Repr {
     /// `C` or `transparent`.
     pub fixed: bool,
+    /// The type of an enum's discriminants.
+    pub integer: Option<Path>,
     /// `packed`.
     pub packed: Option<Path>,
 }
@@ -200,13 +218,15 @@ pub struct Repr {
 impl Repr {
     /// Of these attributes. What can't be read is left to rustc.
     pub fn of(attributes: &[Attribute]) -> Self {
-        let mut repr = Self { fixed: false, packed: None };
+        let mut repr = Self { fixed: false, integer: None, packed: None };
         for attribute in attributes.iter().filter(|a| a.path().is_ident("repr")) {
             let _ = attribute.parse_nested_meta(|meta| {
                 if meta.path.is_ident("C") || meta.path.is_ident("transparent") {
                     repr.fixed = true;
                 } else if meta.path.is_ident("packed") {
                     repr.packed = Some(meta.path.clone());
+                } else if INTEGERS.iter().any(|integer| meta.path.is_ident(integer)) {
+                    repr.integer = Some(meta.path.clone());
                 }
                 if meta.input.peek(syn::token::Paren) {
                     let inner;

@@ -13,12 +13,14 @@ struct Places {
     consts: TokenStream,
     stores: Vec<TokenStream>,
     load: TokenStream,
+    /// Of type `Layout`.
+    layout: TokenStream,
 }
 
 fn places(model: &Struct) -> Places {
     let krate = &device_crate();
     let mut consts = TokenStream::new();
-    let (mut stores, mut loads) = (Vec::new(), Vec::new());
+    let (mut stores, mut loads, mut layouts) = (Vec::new(), Vec::new(), Vec::new());
     for (i, field) in model.fields.iter().enumerate() {
         let (member, ty) = (&field.member, &field.ty);
         let (at, next) = (format_ident!("__AT_{i}"), format_ident!("__AT_{}", i + 1));
@@ -34,13 +36,16 @@ fn places(model: &Struct) -> Places {
         let store = quote_spanned!(span=> <#ty as #krate::words::Words>::store);
         stores.push(quote!(#store(self.#member, #krate::words::part_mut(__words, #at, #next));));
         let load = quote_spanned!(span=> <#ty as #krate::words::Words>::load);
+        let (name, layout) = (field.name(), quote_spanned!(span=> <#ty as #krate::words::Words>::LAYOUT));
+        layouts.push(quote!(.field(#name, #at, #layout)));
         loads.push(quote!(unsafe { #load(#krate::words::part(__words, #at, #next)) }));
     }
     let end = format_ident!("__AT_{}", model.fields.len());
     let end = if model.fields.is_empty() { quote!(0) } else { quote!(#end) };
     consts.extend(quote!(const __END: __core::primitive::usize = #end;));
     let load = construct(quote!(Self), &model.fields, &loads);
-    Places { consts, stores, load }
+    let layout = quote!(#krate::layout::Layout::of("struct") #(#layouts)*);
+    Places { consts, stores, load, layout }
 }
 
 /// `#[derive(Words)]`.
@@ -50,7 +55,7 @@ pub fn derive_words(input: &DeriveInput) -> TokenStream {
         return errors.into_tokens();
     };
     let (krate, ident) = (&device_crate(), &model.ident);
-    let Places { consts, stores, load } = places(&model);
+    let Places { consts, stores, load, layout } = places(&model);
     let touch = touch(&model);
     let (must_copy, bound) = must_copy(&model);
     let errors = errors.into_tokens();
@@ -60,6 +65,7 @@ pub fn derive_words(input: &DeriveInput) -> TokenStream {
             #[automatically_derived]
             impl #krate::words::Words for #ident #bound {
                 const COUNT: __core::primitive::usize = __END;
+                const LAYOUT: #krate::layout::Layout = #layout;
                 #[inline(always)]
                 fn store(self, __words: &mut [__core::primitive::u32]) {
                     #(#stores)*
@@ -82,7 +88,7 @@ pub fn derive_attributes(input: &DeriveInput) -> TokenStream {
         return errors.into_tokens();
     };
     let (krate, ident, name) = (&device_crate(), &model.ident, model.name());
-    let Places { consts, stores, load } = places(&model);
+    let Places { consts, stores, load, layout } = places(&model);
     let span = place_of(ident);
     let moved = moved(krate, span);
     let check = quote_spanned!(span=> const _: () = #moved::check::attribute_words(#name, __END););
@@ -91,10 +97,14 @@ pub fn derive_attributes(input: &DeriveInput) -> TokenStream {
     let items = block(quote! {
             #consts
             #check
+            // SAFETY: the traits of built-in primitives are for types of the device crate.
+            #[automatically_derived]
+            unsafe impl #krate::attributes::Reported for #ident {}
             #[automatically_derived]
             impl #krate::attributes::Attributes for #ident {
                 const NAME: &'static __core::primitive::str = #name;
                 const WORDS: __core::primitive::usize = __END;
+                const LAYOUT: #krate::layout::Layout = #layout;
                 #[inline(always)]
                 unsafe fn load(__words: &[__core::primitive::u32]) -> Self {
                     // SAFETY: `store` stores each field in the words that it is loaded from.

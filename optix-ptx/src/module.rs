@@ -42,6 +42,17 @@ pub struct Variable<'a> {
     pub value: &'a str,
 }
 
+impl Variable<'_> {
+    /// The whole numbers that it begins with; nothing if it has other values. One above `i64::MAX` may be written as the negative
+    /// number with the same bits.
+    pub fn numbers(&self) -> Vec<u64> {
+        let number = |text: &str| text.parse().ok().or_else(|| text.parse::<i64>().ok().map(i64::cast_unsigned));
+        let value = self.value.trim_start_matches('{').trim_end_matches('}').trim();
+        let numbers = value.split(',').map(|text| number(text.trim())).collect::<Option<_>>();
+        numbers.unwrap_or_default()
+    }
+}
+
 /// An entry or another function.
 #[derive(Clone, Debug)]
 pub struct Function<'a> {
@@ -362,6 +373,8 @@ $L__info: .b8 1
                 variable("words", "global", "b8", 4, 4, "{1, 2, 3, 4}"),
             ]
         );
+        let numbers: Vec<_> = module.variables.iter().map(Variable::numbers).collect();
+        assert_eq!(numbers, [vec![], vec![], vec![u64::MAX - 1], vec![1, 2, 3, 4]]);
     }
 
     #[test]

@@ -60,6 +60,7 @@ fn damage_to_real_ptx_is_found() {
     let symbol = &pipelines[0].params.symbol;
     let declared = format!("{symbol}[{}]", pipelines[0].params.size);
     assert_eq!(rules(&built.text.replace(&declared, &format!("{symbol}[8]"))), [Rule::ParamsSymbol]);
+    assert_eq!(rules(&built.text.replace(&pipelines[0].layouts, "nobodys_layouts")), [Rule::Layout]);
     assert_eq!(rules(&built.text.replace("_optix_trace_typed_32", "_optix_trace_32")), [Rule::Trace]);
     let entry = &pipelines[0].programs[0].entry;
     assert_eq!(rules(&built.text.replace(entry.as_str(), "__raygen__nobody")), [Rule::Entry]);

@@ -2,6 +2,7 @@
 
 use super::Frame;
 use crate::attributes::GeometryKind;
+use crate::layout::Crossing;
 use crate::params::Field;
 use crate::ray::Decision;
 use core::any::TypeId;
@@ -170,22 +171,12 @@ pub struct ParamsDescription {
     pub align: usize,
     /// The fields.
     pub fields: &'static [Field],
-    /// Of its layout; the PTX has it as `{symbol}_layout`.
-    pub fingerprint: u64,
 }
 
 impl ParamsDescription {
     /// Of a parameter type.
     pub const fn of<P: crate::params::LaunchParams>() -> Self {
-        let (size, align) = (size_of::<P>(), align_of::<P>());
-        Self {
-            name: P::NAME,
-            symbol: P::SYMBOL,
-            size,
-            align,
-            fields: P::FIELDS,
-            fingerprint: crate::params::layout_fingerprint(size, align, P::FIELDS),
-        }
+        Self { name: P::NAME, symbol: P::SYMBOL, size: size_of::<P>(), align: align_of::<P>(), fields: P::FIELDS }
     }
 }
 
@@ -206,6 +197,10 @@ pub struct PipelineDescription {
     pub callables: &'static [CallableDescription],
     /// The exceptions.
     pub exceptions: ExceptionsDescription,
+    /// The types that cross between host and device.
+    pub crossings: &'static [Crossing],
+    /// The variable in the PTX that has the device's numbers of them: [`Crossing::table`].
+    pub layouts: &'static str,
     /// The greatest depth of nested trace calls, where `pipeline!` states one (`trace_depth: 4`); otherwise it follows
     /// from which programs trace which rays.
     pub trace_depth: Option<u32>,

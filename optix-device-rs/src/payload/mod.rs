@@ -10,6 +10,7 @@
 pub mod semantics;
 mod transport;
 
+use crate::layout::{Crossing, Layout};
 pub use transport::{Pointer, Registers, Transport};
 
 /// A payload type. Implemented by `#[derive(Payload)]` only.
@@ -30,6 +31,9 @@ pub unsafe trait Payload: Sized + 'static {
     const WORDS: usize;
     /// The fields, in the order of their words.
     const FIELDS: &'static [Field];
+    /// How the fields are made up.
+    #[doc(hidden)]
+    const LAYOUT: Layout;
     /// One word of `OptixPayloadSemantics` bits per register.
     const SEMANTICS: &'static [u32];
     /// The same at a call that only traverses; see [`semantics::at_traverse`].
@@ -39,6 +43,9 @@ pub unsafe trait Payload: Sized + 'static {
     /// How it gets from party to party.
     type Transport: Transport;
 
+    /// What a host and a device have to agree on.
+    #[doc(hidden)]
+    const CROSSING: Crossing = Crossing::payload::<Self>();
     /// All of this as a value, for the host.
     #[cfg(not(target_arch = "nvptx64"))]
     const DESCRIPTION: crate::host::PayloadDescription = crate::host::PayloadDescription::of::<Self>();

@@ -2,11 +2,12 @@
 
 use super::Part;
 use crate::machine::{Cx, TraceCall, UNWRITTEN, unwritten};
+use crate::sealed::Sealed;
 use crate::words::{MAX_PAYLOAD_WORDS, WordBuffer, Words, part, part_mut};
 use core::mem::MaybeUninit;
 
 /// How a payload gets from party to party; chosen by `#[payload(transport = ..)]`, the same for every program's source.
-pub trait Transport: 'static {
+pub trait Transport: Sealed + 'static {
     /// Whether the registers hold an address, and not the payload.
     const POINTER: bool;
 
@@ -42,6 +43,8 @@ pub trait Transport: 'static {
 #[derive(Clone, Copy, Debug)]
 pub enum Registers {}
 
+impl Sealed for Registers {}
+impl<const WORDS: usize> Sealed for Pointer<WORDS> {}
 impl Transport for Registers {
     const POINTER: bool = false;
 

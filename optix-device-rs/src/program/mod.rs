@@ -33,7 +33,7 @@ pub use handle::{AccelHandle, InstanceHandle, TransformHandle, TransformType};
 pub use kind::{Face, HitKind, PrimitiveType};
 pub use transform::Transform;
 
-use crate::attributes::Attributes;
+use crate::attributes::{Attributes, Reported};
 use crate::callable::Signature;
 use crate::data::DeviceData;
 use crate::machine::Cx;
@@ -145,7 +145,8 @@ macro_rules! ray_queries {
             /// Flags, as passed to trace.
             #[inline(always)]
             pub fn ray_flags(&self) -> RayFlags {
-                RayFlags::from_bits(self.cx.ray_flags())
+                // SAFETY: they are those of a `Ray`.
+                unsafe { RayFlags::from_bits(self.cx.ray_flags()) }
             }
             /// Visibility mask, as passed to trace.
             #[inline(always)]
@@ -183,7 +184,9 @@ impl<P, A: Attributes> Intersection<P, A> {
     /// Reports a hit at `t` (guide 13.4).
     ///
     /// True if it was accepted: inside the current interval and not ignored by the any-hit program. `kind` is 0 to 127;
-    /// its eighth bit is not used.
+    /// its eighth bit is left out, on both machines, and ends the launch on [`Device::cpu_checked`].
+    ///
+    /// [`Device::cpu_checked`]: https://docs.rs/optix-host/latest/optix_host/struct.Device.html#method.cpu_checked
     ///
     /// The any-hit program runs meanwhile, on the ray's payload as the trace call, earlier reports and earlier intersection
     /// programs left it. What this program returns is stored when it returns: over what the any-hit programs of its reports
@@ -266,7 +269,7 @@ pub trait IntersectionProgram<P: Pipeline, Rec: SbtRecord, R: Payload> {
     #[doc(hidden)]
     const MARKED: bool = true;
     /// What its hits carry.
-    type Attributes: Attributes;
+    type Attributes: Reported;
     /// Calls the function.
     fn run(cx: &Intersection<P, Self::Attributes>, record: &Rec, input: R::AtIntersection) -> R::FromIntersection;
 }

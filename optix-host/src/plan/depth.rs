@@ -474,7 +474,7 @@ mod tests {
         const ENTRY: Entry = Entry { name: "", function: "", run: nothing };
         const TEST: PipelineDescription = PipelineDescription {
             name: "Test",
-            params: ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[], fingerprint: 0 },
+            params: ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[] },
             raygen: &[],
             rays: &[RayDescription { payload: PayloadDescription::of::<Bounce>(), miss: None }],
             hitgroups: &[],
@@ -485,6 +485,8 @@ mod tests {
             exceptions: ExceptionsDescription { throws: None, variants: &[], program: None },
             trace_depth: None,
             callable_depth: None,
+            crossings: &[],
+            layouts: "",
         };
         let description = PipelineDescription { trace_depth: stated[0], callable_depth: stated[1], ..TEST };
         let mut text = String::new();

@@ -13,6 +13,7 @@ use crate::{Error, Result};
 use core::fmt;
 use depth::{Reached, needed_entries};
 use optix_device_rs::host::{GeometryKind, PipelineDescription};
+use optix_device_rs::layout::Crossing;
 use optix_ptx::Module;
 use std::collections::BTreeSet;
 use std::sync::atomic::Ordering::Relaxed;
@@ -158,7 +159,7 @@ impl Plan {
         let plain = ptx.map(optix_ptx::plain);
         let module = plain.as_deref().map(Module::read);
         if let Some(module) = &module {
-            check_layout(&description, module)?;
+            check_layouts(&description, module)?;
         }
         let callables: BTreeSet<usize> = scene.callables.iter().map(|callable| callable.program).collect();
         let entries = needed_entries(&description, &used, &callables);
@@ -235,27 +236,45 @@ impl Plan {
 /// What the names of the device functions that throw begin with.
 const THROW: &str = "_optix_throw_exception_";
 
-/// Whether the PTX reads the launch parameters where this host writes them.
-fn check_layout(description: &PipelineDescription, module: &Module<'_>) -> Result<()> {
-    let params = &description.params;
-    match layout_fingerprint(module, params.symbol) {
-        Some(fingerprint) if fingerprint == params.fingerprint => Ok(()),
-        found => Err(Error::Pipeline {
-            pipeline: description.name,
-            what: format!(
-                "the PTX is of another build than this host: {} of launch parameters `{}`; build both from the same source",
-                if found.is_some() { "it has another layout" } else { "it has no layout" },
-                params.name
-            ),
-        }),
-    }
+/// Whether all that crosses between host and device is laid out in the PTX as on this host.
+fn check_layouts(description: &PipelineDescription, module: &Module<'_>) -> Result<()> {
+    let here = description.crossings;
+    let there = module.variables.iter().find(|variable| variable.name == description.layouts);
+    let what = match there.map(|variable| variable.numbers()) {
+        None => format!("it does not have the pipeline's layouts, `{}`", description.layouts),
+        Some(numbers) if numbers.len() != 2 * here.len() => {
+            format!("{} types cross between host and device there, and {} here", numbers.len() / 2, here.len())
+        }
+        Some(numbers) => {
+            let (there, _) = numbers.as_chunks();
+            let pairs = here.iter().zip(there);
+            let different: Vec<_> = pairs.filter_map(|(here, there)| difference(here, *there)).collect();
+            if different.is_empty() {
+                return Ok(());
+            }
+            different.join("; ")
+        }
+    };
+    Err(Error::Pipeline {
+        pipeline: description.name,
+        what: format!(
+            "the PTX is of another build than this host: {what}; build both from the same source, in which no `#[cfg(..)]` and no \
+             constant makes a type different for the device"
+        ),
+    })
 }
 
-/// The layout fingerprint that `#[launch_params]` put beside the parameter variable `symbol`; `None` where there is none.
-fn layout_fingerprint(module: &Module<'_>, symbol: &str) -> Option<u64> {
-    let variable = module.variables.iter().find(|variable| variable.name.strip_suffix("_layout") == Some(symbol))?;
-    // A number above `i64::MAX` may be written as the negative one with the same bits.
-    variable.value.parse().ok().or_else(|| variable.value.parse::<i64>().ok().map(i64::cast_unsigned))
+/// In what a type differs from the same type of the PTX, of which its table says size and layout; none if in nothing.
+fn difference(here: &Crossing, [size_there, layout_there]: [u64; 2]) -> Option<String> {
+    let Crossing { what, name, size, layout } = here;
+    let unit = here.unit();
+    if size_there != *size as u64 {
+        Some(format!("{what} `{name}`: {size_there} {unit} there, {size} here"))
+    } else if layout_there != layout.get() {
+        Some(format!("{what} `{name}`: {size} {unit} in both, but with other fields"))
+    } else {
+        None
+    }
 }
 
 /// The text of a module without the entries that `keep` says no to.
@@ -304,11 +323,11 @@ fn exceptions(
 mod tests {
     use super::*;
     use optix_device_rs::host::{ExceptionsDescription, ParamsDescription};
+    use optix_device_rs::layout::Layout;
 
     const PTX: &str = "\
 .visible .const .align 8 .b8 p[16];
-.visible .global .align 8 .b64 p_layout = -2;
-.visible .global .align 8 .b64 q_layout = 12;
+.visible .global .align 8 .b64 q = 12;
 .visible .entry __raygen__a()
 {
 \t// begin inline asm }
@@ -336,17 +355,43 @@ mod tests {
         let plain = optix_ptx::plain(PTX);
         let module = Module::read(&plain);
         let rest = without_entries(PTX, &module, |name| name != "__raygen__a");
-        assert!(rest.contains("p_layout") && rest.contains("q_layout = 12;\n\n\t// .globl\t__miss__b"), "{rest}");
+        assert!(rest.contains("p[16]") && rest.contains("q = 12;\n\n\t// .globl\t__miss__b"), "{rest}");
         let rest = without_entries(PTX, &module, |name| !name.starts_with("__direct"));
         assert!(rest.trim_end().ends_with("helper_param_0\n)\n;"), "{rest}");
         assert_eq!(without_entries(PTX, &module, |_| true), PTX);
     }
 
     #[test]
-    fn fingerprints_are_read_with_either_sign() {
-        let plain = optix_ptx::plain(PTX);
-        let fingerprint = |symbol| layout_fingerprint(&Module::read(&plain), symbol);
-        assert_eq!([fingerprint("p"), fingerprint("q"), fingerprint("r")], [Some(u64::MAX - 1), Some(12), None]);
+    fn layouts_are_compared_type_by_type() {
+        let record = |name, size, ty| Crossing::new("record", name, size, Layout::of(ty));
+        const HERE: [Crossing; 2] = [
+            Crossing::new("launch parameters", "Frame", 32, Layout::of("f")),
+            Crossing::new("attributes", "Hit", 3, Layout::of("h")),
+        ];
+        let description = PipelineDescription { crossings: &HERE, layouts: "layouts", ..plan().description };
+        let with = |there: &[Crossing]| {
+            let numbers = there.iter().flat_map(|crossing| [crossing.size as i64, crossing.layout.get() as i64]);
+            let numbers: Vec<_> = numbers.map(|number| number.to_string()).collect();
+            let text =
+                format!("{PTX}.visible .global .align 8 .b64 layouts[{}] = {{{}}};", numbers.len(), numbers.join(", "));
+            check_layouts(&description, &Module::read(&text)).err().map(|error| error.to_string())
+        };
+        assert_eq!(with(&HERE), None);
+        let says = |there: &[Crossing], parts: &[&str]| {
+            let error = with(there).expect("another layout");
+            assert!(parts.iter().all(|part| error.contains(part)), "{error}");
+        };
+        let [frame, hit] = HERE;
+        says(&[frame, Crossing { size: 7, ..hit }], &["pipeline Test", "attributes `Hit`: 7 words there, 3 here"]);
+        let other = Crossing { layout: Layout::of("g"), ..frame };
+        says(&[other, hit], &["launch parameters `Frame`: 32 bytes in both, but with other fields"]);
+        says(
+            &[record("R", 4, "r"), record("S", 4, "r")],
+            &["`Frame`: 4 bytes there, 32 here; attributes `Hit`: 4 words"],
+        );
+        says(&[frame], &["1 types cross between host and device there, and 2 here"]);
+        let error = check_layouts(&description, &Module::read(PTX)).expect_err("no layouts").to_string();
+        assert!(error.contains("does not have the pipeline's layouts, `layouts`"), "{error}");
     }
 
     #[test]
@@ -373,7 +418,7 @@ mod tests {
 
     /// Of no programs.
     fn plan() -> Plan {
-        let params = ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[], fingerprint: 0 };
+        let params = ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[] };
         Plan {
             description: PipelineDescription {
                 name: "Test",
@@ -385,6 +430,8 @@ mod tests {
                 exceptions: ExceptionsDescription { throws: None, variants: &[], program: None },
                 trace_depth: None,
                 callable_depth: None,
+                crossings: &[],
+                layouts: "",
             },
             kinds: Vec::new(),
             graph: Graph::Any,

@@ -54,7 +54,8 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
         }
     });
 
-    let (mut places, mut fields, mut semantics) = (TokenStream::new(), Vec::new(), TokenStream::new());
+    let (mut places, mut fields, mut layouts, mut semantics) =
+        (TokenStream::new(), Vec::new(), Vec::new(), TokenStream::new());
     for (i, (field, access)) in shape.fields.iter().zip(&payload.access).enumerate() {
         let ty = &field.ty;
         let (at, count, next) =
@@ -68,6 +69,8 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
         });
         let name = field.name();
         fields.push(quote!(#krate::payload::Field { name: #name, at: #at, count: #count }));
+        let layout = quote_spanned!(span=> <#ty as #krate::words::Words>::LAYOUT);
+        layouts.push(quote!(.field(#name, #at, #layout)));
         let bits = Party::ALL.into_iter().flat_map(|party| {
             let read = access.read.has(party).then(|| semantics_bit(&krate, party, "READ"));
             let write = access.write.has(party).then(|| semantics_bit(&krate, party, "WRITE"));
@@ -137,6 +140,7 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
                 const NAME: &'static __core::primitive::str = #name;
                 const WORDS: __core::primitive::usize = __WORDS;
                 const FIELDS: &'static [#krate::payload::Field] = &[#(#fields),*];
+                const LAYOUT: #krate::layout::Layout = #krate::layout::Layout::of("payload") #(#layouts)*;
                 const SEMANTICS: &'static [__core::primitive::u32] = &__SEMANTICS;
                 const SEMANTICS_AT_TRAVERSE: &'static [__core::primitive::u32] =
                     &#krate::payload::semantics::at_traverse(__SEMANTICS);

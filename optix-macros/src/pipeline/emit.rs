@@ -16,9 +16,17 @@ struct Entries<'a> {
     place: String,
     items: TokenStream,
     names: Vec<String>,
+    /// The types that cross between host and device: calls of the functions of `Crossing`.
+    crossings: Vec<TokenStream>,
 }
 
 impl Entries<'_> {
+    /// A type that crosses as `what`, a function of `Crossing`.
+    fn crosses(&mut self, what: &str, ty: &TokenStream) {
+        let (krate, what) = (device_crate(), format_ident!("{what}"));
+        self.crossings.push(quote!(#krate::layout::Crossing::#what::<#ty>()));
+    }
+
     /// Makes the entry of a program on both machines; gives the host's `Entry`.
     /// `types` are those of the entry, `bound` the trait that has the program's function.
     fn add(
@@ -178,13 +186,20 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
     let krate = &device_crate();
     let pipeline_name = name(ident);
     let structure = structure(pipeline);
-    let mut entries =
-        Entries { pipeline, place: place(ident.span(), &pipeline_name), items: TokenStream::new(), names: Vec::new() };
+    let mut entries = Entries {
+        pipeline,
+        place: place(ident.span(), &pipeline_name),
+        items: TokenStream::new(),
+        names: Vec::new(),
+        crossings: Vec::new(),
+    };
     let mut impls = TokenStream::new();
+    entries.crossings.push(quote!(<#ident as #krate::pipeline::Pipeline>::PARAMS_CROSSING));
 
     let raygen: Vec<_> = pipeline.raygen.iter().enumerate().map(|(i, program)| {
         let bound = quote!(RayGenProgram<#ident>);
         let record = of_program(krate, program, &bound, "Record");
+        entries.crosses("record", &record);
         let entry = entries.add(Kind::RayGen, program, &quote!(#ident, _), &bound, &[]);
         let index = i as u32;
         let program = type_of(program);
@@ -205,6 +220,7 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
             let record = miss_record(pipeline, payload, Some(program));
             let bound = quote!(MissProgram<#ident, #payload>);
             let types = quote!(#ident, #payload, _);
+            entries.crosses("record", &record);
             let entry = entries.add(Kind::Miss, program, &types, &bound, &[symbol(payload)]);
             quote!(#krate::host::ProgramDescription { entry: #entry, record: #krate::host::RecordLayout::of::<#record>() })
         });
@@ -213,6 +229,7 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
         }
         let miss = option(miss);
         let moved_krate = moved(krate, place_of(payload));
+        entries.crossings.push(quote!(<#payload as #moved_krate::payload::Payload>::CROSSING));
         quote! {
             #krate::host::RayDescription { payload: <#payload as #moved_krate::payload::Payload>::DESCRIPTION, miss: #miss }
         }
@@ -244,6 +261,8 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
     let callable_depth = option(pipeline.callable_depth.as_ref().map(|depth| depth.to_token_stream()));
     // `cargo optix verify` compares the PTX with this. It finds a pipeline by the place in its entries' names, so private ones
     // too; other builds do without the symbol.
+    let (crossings, count) = (&entries.crossings, entries.crossings.len());
+    let layouts = format!("optix_layouts_{pipeline_name}_{}", entries.place);
     let facts = has_cfg("optix_facts").then(|| {
         let facts = format_ident!("__optix_facts_{}", entries.place);
         quote! {
@@ -257,12 +276,14 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
     let imports = imports(pipeline);
     let items = block(quote! {
             #imports
+            const __CROSSINGS: [#krate::layout::Crossing; #count] = [#(#crossings),*];
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #krate::pipeline::Pipeline for #ident {
                 type Params = #params;
                 type Exception = #exception;
                 const RAY_TYPES: __core::primitive::u32 = #ray_types;
+                const CROSSINGS: &'static [#krate::layout::Crossing] = &__CROSSINGS;
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
                     name: #pipeline_name,
@@ -274,13 +295,34 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
                     exceptions: #exceptions,
                     trace_depth: #depth,
                     callable_depth: #callable_depth,
+                    crossings: <Self as #krate::pipeline::Pipeline>::CROSSINGS,
+                    layouts: #layouts,
                 };
+            }
+            #[cfg(target_arch = "nvptx64")]
+            impl #ident {
+                const __OPTIX_LAYOUTS: [[__core::primitive::u64; 2]; #count] = #krate::layout::Crossing::table(__CROSSINGS);
             }
             #impls
             #items
             #facts
     });
-    quote!(#structure #items)
+    let layouts = layouts_variable(ident, &layouts, count);
+    quote!(#structure #items #layouts)
+}
+
+/// The variable in the PTX that has the layouts of `count` types. An item, so it can't be in a block.
+fn layouts_variable(ident: &Ident, variable: &str, count: usize) -> TokenStream {
+    let places: Vec<String> = (0..2 * count).map(|i| format!("{{n{i}}}")).collect();
+    let text = format!(".visible .global .align 8 .b64 {variable}[{}] = {{{{{}}}}};", 2 * count, places.join(", "));
+    let numbers = (0..2 * count).map(|i| {
+        let (name, row, column) = (format_ident!("n{i}"), i / 2, i % 2);
+        quote!(#name = const #ident::__OPTIX_LAYOUTS[#row][#column])
+    });
+    quote! {
+        #[cfg(target_arch = "nvptx64")]
+        ::core::arch::global_asm!(#text, #(#numbers),*);
+    }
 }
 
 /// The callables' descriptions, with their entries and impls.
@@ -309,6 +351,8 @@ fn callables(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenSt
         impls.extend(quote_spanned! {span=>
             const _: () = #there::check::callable::<#signature>(#program_name);
         });
+        entries.crosses("record", &record);
+        entries.crossings.push(quote!(#krate::layout::Crossing::signature::<#signature>(#program_name)));
         let entry = entries.add(kind, program, &quote!(#ident, _), &bound, &[]);
         quote! {
             #krate::host::CallableDescription::of::<#record, #signature, #krate::callable::#word>(#entry)
@@ -346,6 +390,7 @@ fn exceptions(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenS
             let span = place_of(exception);
             let krate = moved(krate, span);
             let of = quote_spanned!(span=> <#exception as #krate::exception::UserException>);
+            entries.crossings.push(quote!(#of::CROSSING));
             (option(Some(quote!(#of::NAME))), quote!(#of::VARIANTS))
         }
         None => (option(None), quote!(&[])),
@@ -360,6 +405,7 @@ fn exceptions(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenS
                 type Record = #record;
             }
         });
+        entries.crosses("record", &record);
         let entry = entries.add(Kind::Exception, program, &quote!(#ident, _), &bound, &[]);
         quote!(#krate::host::ProgramDescription { entry: #entry, record: #krate::host::RecordLayout::of::<#record>() })
     });
@@ -392,16 +438,14 @@ fn describe_group(
                 group.rays.iter().find(|p| super::check::text(&p.ray) == super::check::text(&ray.payload))?;
             let (ray, hits) = (&programs.ray, hits_of(programs));
             match (first, &programs.intersection) {
+                // Of one program too, which may be written by hand, with hits that depend on the ray.
                 (Some(first), Some(program)) => {
-                    if first.intersection.as_ref().is_some_and(|f| super::check::text(f) != super::check::text(program))
-                    {
-                        let other = hits_of(first);
-                        let span = place_of(program);
-                        let krate = moved(krate, span);
-                        impls.extend(quote_spanned! {span=>
-                            const _: () = #krate::check::same_hits::<#hits, #other>();
-                        });
-                    }
+                    let other = hits_of(first);
+                    let span = place_of(program);
+                    let krate = moved(krate, span);
+                    impls.extend(quote_spanned! {span=>
+                        const _: () = #krate::check::same_hits::<#hits, #other>();
+                    });
                 }
                 _ => first = Some(programs),
             }
@@ -431,9 +475,11 @@ fn describe_group(
         })
         .collect();
     let geometry = format_ident!("{}", group.geometry.name());
+    entries.crosses("record", &record.to_token_stream());
     let words = match first {
         Some(programs) => {
             let hits = hits_of(programs);
+            entries.crosses("attributes", &hits);
             quote!(<#hits as #krate::attributes::Attributes>::WORDS)
         }
         None => quote!(0),
@@ -522,6 +568,7 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
                 type Params = #params;
                 type Exception = #exception;
                 const RAY_TYPES: __core::primitive::u32 = 0;
+                const CROSSINGS: &'static [#krate::layout::Crossing] = &[];
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
                     name: #pipeline_name,
@@ -537,6 +584,8 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
                     },
                     trace_depth: __core::option::Option::None,
                     callable_depth: __core::option::Option::None,
+                    crossings: &[],
+                    layouts: "",
                 };
             }
             #(#rays)*

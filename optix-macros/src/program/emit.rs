@@ -257,7 +257,7 @@ pub fn fallback(kind: Kind, ident: &Ident) -> TokenStream {
         }
         Kind::Intersection => {
             let (at, from) = (at("AtIntersection"), at("FromIntersection"));
-            let hits = quote!(#krate::attributes::Triangles);
+            let hits = quote!(#krate::check::NoHits);
             (
                 quote!(#pipeline, #record, #payload),
                 quote!(__P, __Rec, __R),

@@ -10,6 +10,11 @@ pub struct Shadow {
     pub visible: bool,
 }
 
+#[derive(Clone, Copy, Attributes)]
+pub struct BallHit {
+    pub uv: Vec2,
+}
+
 #[derive(Clone, Copy, UserException)]
 pub enum Fault {
     Lost,
@@ -36,7 +41,7 @@ pub fn program<P: HasRay<Shadow> + Throws<Fault>>(at: &AnyHit<P, Triangles>) -> 
     let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
     let _ = at.trace_without_closesthit::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
     let _ = continuation().call(at, 1);
-    let _ = at.report(1.0, 0, Triangles { u: 0.0, v: 0.0 });
+    let _ = at.report(1.0, 0, BallHit { uv: Vec2::ZERO });
     let _ = at.exception_code();
     let _ = at.line_info();
     let _ = at.raised();

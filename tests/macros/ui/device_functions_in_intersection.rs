@@ -10,6 +10,11 @@ pub struct Shadow {
     pub visible: bool,
 }
 
+#[derive(Clone, Copy, Attributes)]
+pub struct BallHit {
+    pub uv: Vec2,
+}
+
 #[derive(Clone, Copy, UserException)]
 pub enum Fault {
     Lost,
@@ -32,7 +37,7 @@ pub fn continuation() -> Callable<fn(u32) -> u32, Continuation> {
 }
 
 #[intersection]
-pub fn program<P: HasRay<Shadow> + Throws<Fault>>(at: &Intersection<P, Triangles>) {
+pub fn program<P: HasRay<Shadow> + Throws<Fault>>(at: &Intersection<P, BallHit>) {
     let _ = at.trace::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
     let _ = at.trace_without_closesthit::<Shadow>(Traversable::NULL, Ray::new(Vec3::ZERO, Vec3::X), ShadowFromCaller { visible: false });
     let _ = continuation().call(at, 1);

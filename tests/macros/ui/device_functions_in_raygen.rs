@@ -10,6 +10,11 @@ pub struct Shadow {
     pub visible: bool,
 }
 
+#[derive(Clone, Copy, Attributes)]
+pub struct BallHit {
+    pub uv: Vec2,
+}
+
 #[derive(Clone, Copy, UserException)]
 pub enum Fault {
     Lost,
@@ -64,7 +69,7 @@ pub fn program<P: HasRay<Shadow> + Throws<Fault>>(at: &RayGen<P>) {
     let _ = at.barycentrics();
     let _ = at.attributes();
     let _ = at.vertices();
-    let _ = at.report(1.0, 0, Triangles { u: 0.0, v: 0.0 });
+    let _ = at.report(1.0, 0, BallHit { uv: Vec2::ZERO });
     let _ = at.exception_code();
     let _ = at.line_info();
     let _ = at.raised();

@@ -38,7 +38,7 @@ impl Generator {
 }
 
 /// A peer's PTX under the names that the host looks for: entries end with a hash there, and the launch parameters have a
-/// symbol of their own, with the fingerprint of their layout.
+/// symbol of their own, and the pipeline its table of layouts.
 fn adopt(text: &str, of: &PipelineDescription) -> String {
     let symbol = of.params.symbol;
     let mut text = text.replace("[params", &format!("[{symbol}")).replace(" params[", &format!(" {symbol}["));
@@ -46,7 +46,10 @@ fn adopt(text: &str, of: &PipelineDescription) -> String {
         let Some((plain, _hash)) = entry.rsplit_once('_') else { continue };
         text = text.replace(&format!("{plain}("), &format!("{entry}("));
     }
-    text + &format!("\n.visible .global .align 8 .b64 {symbol}_layout = {};\n", of.params.fingerprint)
+    let numbers = of.crossings.iter().flat_map(|crossing| [crossing.size as u64, crossing.layout.get()]);
+    let numbers: Vec<_> = numbers.map(|number| number.to_string()).collect();
+    let (layouts, count) = (of.layouts, numbers.len());
+    text + &format!("\n.visible .global .align 8 .b64 {layouts}[{count}] = {{{}}};\n", numbers.join(", "))
 }
 
 fn entries(of: &PipelineDescription) -> impl Iterator<Item = &'static str> {

@@ -14,8 +14,27 @@ pub struct Pipeline {
     pub rays: Vec<Ray>,
     /// What its programs may throw, if anything.
     pub throws: Option<String>,
+    /// The variable in the PTX with the layouts of `crossings`.
+    pub layouts: String,
+    /// The types that cross between host and device.
+    pub crossings: Vec<Crossing>,
     /// The programs, one per entry.
     pub programs: Vec<Program>,
+}
+
+/// A type that crosses between host and device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Crossing {
+    /// What it is: "record".
+    pub what: String,
+    /// Its name.
+    pub name: String,
+    /// How many bytes or words it has.
+    pub size: usize,
+    /// Which of the two.
+    pub unit: String,
+    /// A number of its layout.
+    pub layout: u64,
 }
 
 /// A launch-parameter struct.
@@ -70,6 +89,8 @@ pub struct Program {
     pub ray: Option<usize>,
     /// The material of its hit group: the record's name. None for others.
     pub material: Option<String>,
+    /// Whether it is for custom primitives.
+    pub custom: bool,
 }
 
 /// The kind of a device program.
@@ -168,12 +189,24 @@ fn pipeline(json: &Json) -> Option<Pipeline> {
         },
         rays: json.get("rays").items().iter().map(ray).collect::<Option<_>>()?,
         throws: text(json, "throws"),
+        layouts: text(json, "layouts")?,
+        crossings: json.get("crossings").items().iter().map(crossing).collect::<Option<_>>()?,
         programs: json.get("programs").items().iter().map(program).collect::<Option<_>>()?,
     })
 }
 
 fn text(json: &Json, key: &str) -> Option<String> {
     json.get(key).str().map(str::to_string)
+}
+
+fn crossing(json: &Json) -> Option<Crossing> {
+    Some(Crossing {
+        what: text(json, "what")?,
+        name: text(json, "name")?,
+        size: json.get("size").number()?,
+        unit: text(json, "unit")?,
+        layout: json.get("layout").str()?.parse().ok()?,
+    })
 }
 
 fn field(json: &Json) -> Option<Field> {
@@ -199,5 +232,6 @@ fn program(json: &Json) -> Option<Program> {
         function: text(json, "function")?,
         ray: json.get("ray").number(),
         material: text(json, "material"),
+        custom: json.get("custom") == &Json::Bool(true),
     })
 }

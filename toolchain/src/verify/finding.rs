@@ -36,6 +36,8 @@ pub enum Rule {
     Entry,
     /// The variable that holds the launch parameters.
     ParamsSymbol,
+    /// How types that cross between host and device are laid out.
+    Layout,
     /// Loads of launch parameters.
     ParamsLoad,
     /// `_optix_set_payload_types`.
@@ -44,6 +46,8 @@ pub enum Rule {
     PayloadWord,
     /// `_optix_trace_typed_32`.
     Trace,
+    /// Queries about the primitive that was hit.
+    Primitive,
     /// Local memory.
     LocalMemory,
     /// Calls of functions.
@@ -59,10 +63,12 @@ impl Rule {
             Self::Module => "module",
             Self::Entry => "entry",
             Self::ParamsSymbol => "params-symbol",
+            Self::Layout => "layout",
             Self::ParamsLoad => "params-load",
             Self::PayloadType => "payload-type",
             Self::PayloadWord => "payload-word",
             Self::Trace => "trace",
+            Self::Primitive => "primitive",
             Self::LocalMemory => "local-memory",
             Self::Call => "call",
             Self::Callable => "callable",
@@ -76,6 +82,14 @@ impl Rule {
             Self::Entry | Self::ParamsSymbol => {
                 "entries and parameters are made by `pipeline!` and `#[launch_params]`; if nothing was written by hand, \
                  host and device see different declarations: look for `#[cfg]` on what they are made from"
+            }
+            Self::Layout => {
+                "one source gives host and device different types: look for `#[cfg(..)]` on fields, and for constants and aliases \
+                 that depend on the target, in this type and in the types of its fields"
+            }
+            Self::Primitive => {
+                "read what the intersection program reported, `hit.attributes()`; vertices, barycentrics and faces are for \
+                 materials on `Triangles`"
             }
             Self::ParamsLoad => {
                 "read parameters through `params()`, one field at a time; a field of at most 128 bytes, of numbers of 4 \

@@ -8,10 +8,12 @@
 //! | --- | --- |
 //! | every program has one entry, whose name begins as OptiX wants it for its kind | [`Rule::Entry`] |
 //! | the constant-memory variable is there once, with the parameter struct's size and alignment | [`Rule::ParamsSymbol`] |
+//! | all that crosses between host and device is laid out alike in both: parameters, records, payloads, attributes, signatures, exceptions, and the elements of buffers | [`Rule::Layout`] |
 //! | parameters are read by `ld.const` at constant addresses, each inside of one field | [`Rule::ParamsLoad`] |
 //! | each program announces the payload type of its ray type | [`Rule::PayloadType`] |
 //! | each trace call has its ray type's payload, SBT offset, stride and miss index | [`Rule::Trace`] |
 //! | payload words are read and written only by programs that may | [`Rule::PayloadWord`] |
+//! | programs of custom primitives ask nothing about triangles | [`Rule::Primitive`] |
 //! | no local memory but for payloads that travel by pointer | [`Rule::LocalMemory`] |
 //! | no function calls but those that the caller allows, and of the toolkit's own maths for rare arguments | [`Rule::Call`] |
 //! | callables are called, and exceptions thrown, by programs that may | [`Rule::Callable`] |
@@ -25,8 +27,10 @@ mod facts;
 mod finding;
 mod functions;
 mod host_program;
+mod layouts;
 mod params;
 mod payload;
+mod primitives;
 #[cfg(test)]
 mod tests;
 mod trace;
@@ -35,7 +39,7 @@ use std::path::Path;
 
 use optix_ptx::{Function, Module};
 
-pub use facts::{Field, Kind, Params, Pipeline, Program, Ray};
+pub use facts::{Crossing, Field, Kind, Params, Pipeline, Program, Ray};
 pub use finding::{Finding, Level, Rule};
 
 use crate::device_build::{Built, Session};
@@ -96,6 +100,7 @@ pub fn check(text: &str, pipelines: &[Pipeline], allowed: &[String]) -> Vec<Find
         let others = pipelines.iter().filter(|other| other.params.symbol != pipeline.params.symbol);
         let others: Vec<&Pipeline> = others.collect();
         params::check(&module, pipeline, &mut findings);
+        layouts::check(&module, pipeline, &mut findings);
         for program in &pipeline.programs {
             let item = program.item(pipeline);
             let reached = module.reached(&program.entry);
@@ -103,6 +108,7 @@ pub fn check(text: &str, pipelines: &[Pipeline], allowed: &[String]) -> Vec<Find
                 params::check_loads(function, pipeline, &others, &item, &mut findings);
                 payload::check_words(function, program, pipeline, &item, &mut findings);
                 trace::check(function, program, pipeline, &item, &mut findings);
+                primitives::check(function, program, &item, &mut findings);
                 callables::check(function, program, pipeline, &item, &mut findings);
             }
             if let Some(entry) = reached.first() {

@@ -7,7 +7,12 @@ const PTX: &str = include_str!("tests/sound.ptx");
 
 fn program(kind: Kind, function: &str, ray: Option<usize>, material: Option<&str>) -> Program {
     let entry = format!("__{}__Demo_{function}_0123abcd", kind.word());
-    Program { kind, entry, function: function.into(), ray, material: material.map(str::to_string) }
+    let material = material.map(str::to_string);
+    Program { kind, entry, function: function.into(), ray, custom: material.as_deref() == Some("Ball"), material }
+}
+
+fn crossing(what: &str, name: &str, size: usize, unit: &str, layout: u64) -> Crossing {
+    Crossing { what: what.into(), name: name.into(), size, unit: unit.into(), layout }
 }
 
 fn demo() -> Pipeline {
@@ -33,6 +38,11 @@ fn demo() -> Pipeline {
             Ray { payload: "Shadow".into(), semantics: vec![2 | 32 | 1], memory_words: 0 },
         ],
         throws: Some("Fault".into()),
+        layouts: "optix_layouts_Demo_0123abcd".into(),
+        crossings: vec![
+            crossing("launch parameters", "Frame", 32, "bytes", 7),
+            crossing("payload", "Radiance", 2, "words", 8),
+        ],
         programs: vec![
             program(Kind::RayGen, "camera", None, None),
             program(Kind::Miss, "sky", Some(0), None),
@@ -94,6 +104,26 @@ fn the_parameters_variable() {
     one(&declaration.replace("32", "40"), "the PTX has 40 bytes for them, the host 32");
     one(&declaration.replace("align 8", "align 4"), "the PTX aligns them to 4 bytes, the host to 8");
     one(&declaration.replace(".const", ".global"), "there is no constant-memory variable");
+}
+
+#[test]
+fn layouts() {
+    let table = ".visible .global .align 8 .b64 optix_layouts_Demo_0123abcd[4] = {32, 7, 2, 8};";
+    let one = |to: &str, item: &str, says: &str| one(table, to, &["error[layout]", item, says]);
+    one("", "pipeline `Demo`", "does not have its layouts");
+    one(&table.replace("32, 7, ", ""), "pipeline `Demo`", "1 types cross in the PTX, 2 on the host");
+    one(&table.replace("32", "40"), "launch parameters `Frame` of `Demo`", "the PTX has 40 bytes of it, the host 32");
+    one(&table.replace("2, 8", "2, -8"), "payload `Radiance` of `Demo`", "of its 2 words the PTX makes other fields");
+}
+
+#[test]
+fn primitives() {
+    let hit = "// ball";
+    for query in ["barycentrics", "vertex_data_current_hit"] {
+        let call = format!("call (%f1, %f2), _optix_get_triangle_{query}, ();");
+        one(hit, &call, &["error[primitive]", "intersection program `ball`", query, "custom primitives"]);
+        assert_eq!(findings("call _optix_ignore_intersection, ();", &call), [] as [&str; 0]);
+    }
 }
 
 #[test]

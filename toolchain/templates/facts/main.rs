@@ -1,6 +1,6 @@
 //! Written by optix-toolchain; see its `verify` module. Prints the pipelines of a shader crate as JSON.
 
-use optix_device_rs::host::{Entry, PipelineDescription};
+use optix_device_rs::host::{Entry, GeometryKind, HitGroupDescription, PipelineDescription};
 
 fn main() {
     let pipelines: Vec<String> = facts::all().into_iter().map(pipeline).collect();
@@ -22,25 +22,37 @@ fn pipeline(pipeline: &PipelineDescription) -> String {
             payload.name, payload.semantics, payload.memory_words
         )
     });
+    let crossings = list(pipeline.crossings, |crossing| {
+        format!(
+            r#"{{"what":{:?},"name":{:?},"size":{},"unit":{:?},"layout":"{}"}}"#,
+            crossing.what,
+            crossing.name,
+            crossing.size,
+            crossing.unit(),
+            crossing.layout.get()
+        )
+    });
     let throws = pipeline.exceptions.throws.map_or("null".to_string(), |throws| format!("{throws:?}"));
     format!(
-        r#"{{"name":{:?},"params":{{"name":{:?},"symbol":{:?},"size":{},"align":{},"fields":{fields}}},"rays":{rays},"throws":{throws},"programs":{}}}"#,
+        r#"{{"name":{:?},"params":{{"name":{:?},"symbol":{:?},"size":{},"align":{},"fields":{fields}}},"rays":{rays},"throws":{throws},"layouts":{:?},"crossings":{crossings},"programs":{}}}"#,
         pipeline.name,
         params.name,
         params.symbol,
         params.size,
         params.align,
+        pipeline.layouts,
         list(&programs(pipeline), String::clone)
     )
 }
 
 fn programs(pipeline: &PipelineDescription) -> Vec<String> {
     let mut programs = Vec::new();
-    let mut add = |kind: &str, entry: &Entry, ray: Option<usize>, material: Option<&str>| {
+    let mut add = |kind: &str, entry: &Entry, ray: Option<usize>, group: Option<&HitGroupDescription>| {
         let ray = ray.map_or("null".to_string(), |ray| ray.to_string());
-        let material = material.map_or("null".to_string(), |material| format!("{material:?}"));
+        let material = group.map_or("null".to_string(), |group| format!("{:?}", group.record.name));
+        let custom = group.is_some_and(|group| group.geometry == GeometryKind::Custom);
         programs.push(format!(
-            r#"{{"kind":{kind:?},"entry":{:?},"function":{:?},"ray":{ray},"material":{material}}}"#,
+            r#"{{"kind":{kind:?},"entry":{:?},"function":{:?},"ray":{ray},"material":{material},"custom":{custom}}}"#,
             entry.name, entry.function
         ));
     };
@@ -57,7 +69,7 @@ fn programs(pipeline: &PipelineDescription) -> Vec<String> {
             let of_group = [("closesthit", &ray.closesthit), ("anyhit", &ray.anyhit), ("intersection", &ray.intersection)];
             for (kind, entry) in of_group {
                 if let Some(entry) = entry {
-                    add(kind, entry, Some(index), Some(group.record.name));
+                    add(kind, entry, Some(index), Some(group));
                 }
             }
         }

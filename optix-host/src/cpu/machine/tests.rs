@@ -144,7 +144,7 @@ const HIT: HitPrograms = HitPrograms {
 };
 static PIPELINE: PipelineDescription = PipelineDescription {
     name: "Test",
-    params: ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[], fingerprint: 0 },
+    params: ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[] },
     raygen: &[ProgramDescription { entry: entry("__raygen__test", raygen), record: RECORD }],
     rays: &[RayDescription {
         payload: PayloadDescription {
@@ -166,6 +166,8 @@ static PIPELINE: PipelineDescription = PipelineDescription {
     exceptions: ExceptionsDescription { throws: None, variants: &[], program: None },
     trace_depth: None,
     callable_depth: None,
+    crossings: &[],
+    layouts: "",
 };
 
 /// A ray down on a triangle, or on a box, and a call that breaks no rule: field 0 goes in and comes back.
@@ -284,7 +286,8 @@ fn intervals() {
 
 #[test]
 fn flags_that_exclude_each_other() {
-    let both = |a: RayFlags, b: RayFlags| RayFlags::from_bits(a.bits() | b.bits());
+    // SAFETY: on the CPU, which refuses those that exclude each other.
+    let both = |a: RayFlags, b: RayFlags| unsafe { RayFlags::from_bits(a.bits() | b.bits()) };
     let disable = RayFlags::NONE.any_hit(AnyHitMode::Disable);
     let enforce = RayFlags::NONE.any_hit(AnyHitMode::Enforce);
     traps(false, |s| s.call.ray.flags = both(disable, enforce), "__raygen__test", &["0x3", "exclude", "G016"]);
@@ -322,7 +325,8 @@ fn payload_fields_that_come_back_unwritten() {
     // Closest-hit and miss give the field, and the ray runs neither.
     let change = |s: &mut Script| {
         (s.closesthit_gives, s.miss_gives, s.call.caller_reads) = (&[3], &[3], &[3]);
-        s.call.ray.flags = RayFlags::from_bits(8);
+        // SAFETY: one flag excludes none.
+        s.call.ray.flags = unsafe { RayFlags::from_bits(8) };
     };
     traps(false, change, "__raygen__test", &["payload field `Radiance::light` (words 3 to 4)", "comes back", "H024"]);
     for towards in [Vec3::NEG_Z, Vec3::Z] {

@@ -89,6 +89,8 @@ impl Executor for AtPrimitive<'_, '_, '_, '_, '_> {
         if self.call.job.checked {
             checks::report(self.site, self.interval_end(), t, kind);
         }
+        // As on the device: OptiX has seven bits of the kind, and the eighth says that a primitive is a built-in one.
+        let kind = kind & 0x7f;
         // The any-hit program that this may call gets executors of its own, so neither cell is borrowed twice.
         self.reporter.borrow_mut().report(&mut **self.traversal.borrow_mut(), t, kind, &attributes.0[..count])
     }

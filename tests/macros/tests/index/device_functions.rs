@@ -17,7 +17,7 @@ const RAYS: &str = "P: HasRay<Shadow> + Throws<Fault>";
 /// In the order of the table's second column.
 const KINDS: [Kind; 8] = [
     Kind { name: "raygen", signature: "&RayGen<P>)", result: "" },
-    Kind { name: "intersection", signature: "&Intersection<P, Triangles>)", result: "" },
+    Kind { name: "intersection", signature: "&Intersection<P, BallHit>)", result: "" },
     Kind { name: "anyhit", signature: "&AnyHit<P, Triangles>) -> Decision", result: "    Decision::Accept\n" },
     Kind { name: "closesthit", signature: "&ClosestHit<P, Triangles>)", result: "" },
     Kind { name: "miss", signature: "&Miss<P>)", result: "" },
@@ -32,6 +32,11 @@ const DECLARATIONS: &str = "\
 pub struct Shadow {
     #[payload(write(caller, miss), read(caller))]
     pub visible: bool,
+}
+
+#[derive(Clone, Copy, Attributes)]
+pub struct BallHit {
+    pub uv: Vec2,
 }
 
 #[derive(Clone, Copy, UserException)]

@@ -10,6 +10,11 @@ pub struct Shadow {
     pub visible: bool,
 }
 
+#[derive(Clone, Copy, Attributes)]
+pub struct BallHit {
+    pub uv: Vec2,
+}
+
 #[derive(Clone, Copy, UserException)]
 pub enum Fault {
     Lost,
@@ -59,7 +64,7 @@ mod device_functions_in_intersection {
     use super::*;
 
     #[intersection]
-    pub fn program<P: HasRay<Shadow> + Throws<Fault>>(at: &Intersection<P, Triangles>) {
+    pub fn program<P: HasRay<Shadow> + Throws<Fault>>(at: &Intersection<P, BallHit>) {
         let _ = at.launch_index();
         let _ = at.launch_dimensions();
         let _ = None::<TransformHandle>.map(TransformHandle::transform_type);
@@ -97,7 +102,7 @@ mod device_functions_in_intersection {
         let _ = at.point_to_world(Vec3::X);
         let _ = at.vector_to_world(Vec3::X);
         let _ = at.normal_to_world(Vec3::X);
-        let _ = at.report(1.0, 0, Triangles { u: 0.0, v: 0.0 });
+        let _ = at.report(1.0, 0, BallHit { uv: Vec2::ZERO });
     }
 }
 

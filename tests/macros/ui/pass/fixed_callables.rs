@@ -430,4 +430,16 @@ mod record_function_pointer {
     }
 }
 
+mod callable_signature_by_hand {
+    use optix_device_rs::prelude::*;
+
+    pub type Texture = fn(Vec2) -> Vec3;
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Paint {
+        pub texture: Callable<fn(Vec2) -> Vec3, Continuation>,
+    }
+}
+
 fn main() {}

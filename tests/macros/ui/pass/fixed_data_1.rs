@@ -372,4 +372,102 @@ mod element_with_instances {
     }
 }
 
+mod params_alignment {
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    #[repr(C, align(16))]
+    pub struct Frame {
+        pub bounces: u32,
+    }
+}
+
+mod data_alignment {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, DeviceData)]
+    #[repr(C, align(16))]
+    pub struct Wide {
+        pub numbers: [f32; 8],
+    }
+}
+
+mod element_alignment {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, Element)]
+    #[repr(C, align(16))]
+    pub struct Line(pub [u32; 16]);
+}
+
+mod data_of_one_machine {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Paint {
+        #[cfg(feature = "extra")]
+        pub extra: u32,
+        pub colour: Vec3,
+    }
+
+    #[derive(Clone, Copy, Element)]
+    #[repr(C)]
+    pub struct Lamp {
+        pub number: u32,
+        pub colour: Vec3,
+    }
+
+    #[derive(Payload)]
+    pub struct Probe {
+        #[payload(write(caller), read(miss))]
+        pub extra: u32,
+        #[cfg_attr(not(target_arch = "nvptx64"), doc = "A number.")]
+        #[payload(write(caller), read(miss))]
+        pub id: u32,
+    }
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct BallHit {
+        pub normal: Vec3,
+        pub id: u32,
+    }
+
+    #[derive(Clone, Copy, UserException)]
+    pub enum Fault {
+        Lost { id: u32 },
+    }
+}
+
+mod bound_forged {
+    use optix_device_rs::prelude::*;
+    use optix_device_rs::params::Bound;
+
+    #[launch_params]
+    pub struct Frame {
+        #[bound]
+        pub bounces: u32,
+    }
+
+    pub const THERE: Bound<Frame, u32> = Frame::BOUNCES;
+}
+
+mod types_too_deep {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Paint {
+        pub colours: [[[u32; 1]; 1]; 1],
+    }
+
+    #[launch_params]
+    pub struct Frame {
+        pub numbers: [[[u32; 1]; 1]; 1],
+    }
+
+    #[derive(Clone, Copy, Words)]
+    pub struct Id(pub Option<Option<u32>>);
+}
+
 fn main() {}

@@ -69,4 +69,20 @@ mod record_without_repr_c {
     }
 }
 
+mod record_view_called_plain {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, DeviceData)]
+    #[repr(C)]
+    pub struct Hidden {
+        pub data: SliceMut<u32>,
+    }
+
+    #[launch_params]
+    pub struct Frame {
+        #[view]
+        pub hidden: Hidden,
+    }
+}
+
 fn main() {}

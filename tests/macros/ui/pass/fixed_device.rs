@@ -256,4 +256,12 @@ mod device_instance_outlives_its_program {
     }
 }
 
+mod device_flags_by_bits {
+    use optix_device_rs::prelude::*;
+
+    pub fn flags() -> RayFlags {
+        RayFlags::NONE.any_hit(AnyHitMode::Disable).cull(CullFaces::Back)
+    }
+}
+
 fn main() {}

@@ -280,4 +280,53 @@ mod program_exception_with_payload {
     fn report<P: Pipeline>(_: &Exception<P>) {}
 }
 
+mod exception_code_beyond_64_bits {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, UserException)]
+    #[repr(i128)]
+    pub enum Fault {
+        View { at: Slice<u32> } = (1 << 30) - 1,
+        Numbers { low: u64, high: u64 } = 0,
+    }
+
+    #[derive(Clone, Copy, UserException)]
+    #[repr(u128)]
+    pub enum Huge {
+        Most = 1 + 1,
+    }
+}
+
+mod exception_thrown_by_declaration {
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    pub struct Frame {
+        pub faults: SliceMut<u32>,
+    }
+
+    #[derive(Clone, Copy, UserException)]
+    pub enum Fault {
+        View { at: Slice<u32> },
+    }
+
+    #[derive(Clone, Copy, UserException)]
+    pub enum Other {
+        Numbers { low: u64, high: u64 },
+    }
+
+    #[raygen]
+    fn camera(rg: &RayGen<Flat>) {
+        rg.throw(Fault::View { at: Slice::EMPTY })
+    }
+
+    pipeline! {
+        pub struct Flat {
+            params: Frame,
+            raygen: [camera],
+            throws: Fault,
+        }
+    }
+}
+
 fn main() {}

@@ -117,4 +117,89 @@ mod attributes_forged_triangles {
     }
 }
 
+mod attributes_of_triangles_reported {
+    use optix_device_rs::prelude::*;
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Ball {
+        pub radius: f32,
+    }
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct BallHit {
+        pub uv: Vec2,
+    }
+
+    #[intersection]
+    fn ball<P: Pipeline>(isect: &Intersection<P, BallHit>, record: &Ball) {
+        isect.report(record.radius, 0, BallHit { uv: Vec2::splat(0.25) });
+    }
+}
+
+mod pipeline_intersection_by_hand {
+    use optix_device_rs::prelude::*;
+    use optix_device_rs::program::IntersectionProgram;
+
+    #[launch_params]
+    pub struct Frame {
+        pub world: Traversable,
+    }
+
+    #[derive(Payload)]
+    pub struct First {
+        #[payload(write(caller, anyhit), read(anyhit, caller))]
+        pub count: u32,
+    }
+
+    #[derive(Payload)]
+    pub struct Second {
+        #[payload(write(caller, anyhit), read(anyhit, caller))]
+        pub count: u32,
+    }
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Ball {
+        pub radius: f32,
+    }
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct Small {
+        pub number: u32,
+    }
+
+    #[derive(Clone, Copy, Attributes)]
+    pub struct Large {
+        pub numbers: [u32; 8],
+    }
+
+    #[raygen]
+    fn camera(_: &RayGen<Flat>) {}
+
+    #[allow(non_camel_case_types)]
+    pub struct ball;
+    impl IntersectionProgram<Flat, Ball, First> for ball {
+        type Attributes = Small;
+        fn run(isect: &Intersection<Flat, Small>, _: &Ball, _: ()) {
+            isect.report(1.0, 0, Small { number: 1 });
+        }
+    }
+    impl IntersectionProgram<Flat, Ball, Second> for ball {
+        type Attributes = Small;
+        fn run(isect: &Intersection<Flat, Small>, _: &Ball, _: ()) {
+            isect.report(1.0, 0, Small { number: 2 });
+        }
+    }
+
+    pipeline! {
+        pub struct Flat {
+            params: Frame,
+            raygen: [camera],
+            rays: { First {}, Second {} },
+            hitgroups: { Ball on Custom => { First { intersection: ball }, Second { intersection: ball } } },
+        }
+    }
+}
+
 fn main() {}
