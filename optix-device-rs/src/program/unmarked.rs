@@ -2,7 +2,7 @@
 //! is all that is said of it.
 
 use super::*;
-use crate::attributes::Triangles;
+use crate::check::NoHits;
 use crate::payload::Part;
 
 #[diagnostic::do_not_recommend]
@@ -49,8 +49,8 @@ impl<const N: usize, P: Pipeline, A: Attributes, Rec: SbtRecord, R: Payload> Any
 #[diagnostic::do_not_recommend]
 impl<const N: usize, P: Pipeline, Rec: SbtRecord, R: Payload> IntersectionProgram<P, Rec, R> for [(); N] {
     const MARKED: bool = false;
-    type Attributes = Triangles;
-    fn run(_: &Intersection<P, Triangles>, _: &Rec, _: R::AtIntersection) -> R::FromIntersection {
+    type Attributes = NoHits;
+    fn run(_: &Intersection<P, NoHits>, _: &Rec, _: R::AtIntersection) -> R::FromIntersection {
         nothing()
     }
 }

@@ -178,7 +178,7 @@ mod pipeline_intersection_by_hand {
     fn camera(_: &RayGen<Flat>) {}
 
     #[allow(non_camel_case_types)]
-    pub struct ball;
+    pub struct ball {}
     impl IntersectionProgram<Flat, Ball, First> for ball {
         type Attributes = Small;
         fn run(isect: &Intersection<Flat, Small>, _: &Ball, _: ()) {
