@@ -50,12 +50,19 @@ impl Device {
     }
 
     /// The CPU, on all cores (rayon's global pool).
+    ///
+    /// Programs run on the threads' own stacks: 2 MiB each, unless `RUST_MIN_STACK` in the environment or the pool that a launch is
+    /// made in says otherwise, and on the calling thread's where the pool has one thread only. Traces and calls that nest too deep
+    /// for that end the launch with an error. A program whose own functions recurse without an end, or that holds larger arrays
+    /// than the stack, ends the process, as any Rust program would: there is no program and no launch index in what Rust says
+    /// then. On a GPU a stack is some kilobytes, so bound the depth of what recurses.
     pub fn cpu() -> Result<Self> {
         Ok(Self::on_cpu(CpuBackend::new()))
     }
 
     /// The CPU, in checked mode: a launch ends with an error that names launch index, program and rule where a program
-    /// does what the OptiX guide calls undefined. Slower than [`Device::cpu`]; pictures are the same.
+    /// does what the OptiX guide calls undefined and neither types nor the host rule out; `docs/checked.md` has the list. Slower
+    /// than [`Device::cpu`]; pictures are the same.
     pub fn cpu_checked() -> Result<Self> {
         Ok(Self::on_cpu(CpuBackend::checked()))
     }

@@ -4,7 +4,7 @@ use super::checks::{self, Watch};
 use super::handle::{self, rows};
 use super::stack::StackEnd;
 use super::traversal::{AtHit, Traversal};
-use super::{Job, trap};
+use super::{Job, rules, trap};
 use crate::cpu::kernel::{self, Accel, RayQuery};
 use crate::sbt::Section;
 use core::cell::Cell;
@@ -13,7 +13,7 @@ use glam::{UVec3, Vec3};
 use optix_device_rs::exception::TRACE_DEPTH_EXCEEDED;
 use optix_device_rs::host::end::{End, end, goes_on};
 use optix_device_rs::host::{
-    CallableCall, Entry, ExceptionState, Executor, Frame, HitState, InstanceState, PayloadWatch, TraceCall,
+    CallableCall, Entry, ExceptionState, Executor, Frame, HitPrograms, HitState, InstanceState, PayloadWatch, TraceCall,
 };
 use optix_device_rs::prelude::{Decision, Ray};
 use optix_device_rs::words::WordBuffer;
@@ -21,10 +21,13 @@ use optix_device_rs::words::WordBuffer;
 /// Ends the launch index: a program uses what it kept from another launch.
 #[cold]
 fn not_held(what: &str) -> ! {
-    trap(format!(
-        "a {what} is used that this launch's parameters and records do not hold: it was kept from another launch; pass its structure \
+    trap(
+        &rules::HELD,
+        format!(
+            "a {what} is used that this launch's parameters and records do not hold: it was kept from another launch; pass its structure \
          to this one"
-    ))
+        ),
+    )
 }
 
 /// What all program calls of one trace share.
@@ -82,6 +85,7 @@ impl<'c> Call<'c> {
                 end(End::Thrown(ExceptionState::STACK_OVERFLOW));
             }
             trap(
+                &rules::STACK,
                 "programs call each other so deep that the stack of the CPU's thread is used up: lower `trace_depth` or \
                  `callable_depth` in `pipeline!`, or give the threads larger stacks (`RUST_MIN_STACK=16777216` in the \
                  environment, or `stack_size` of a rayon pool that the launch is made in)"
@@ -170,10 +174,10 @@ impl<'c> Call<'c> {
             if job.exceptions.trace_depth {
                 end(End::Thrown(ExceptionState { code: TRACE_DEPTH_EXCEEDED, ..ExceptionState::NONE }));
             }
-            trap(format!(
-                "trace calls nest deeper than the pipeline's trace depth of {} (guide 12, G013)",
-                job.depths.trace
-            ));
+            trap(
+                &rules::TRACE_DEPTH,
+                format!("trace calls nest deeper than the pipeline's trace depth of {}", job.depths.trace),
+            );
         }
         self.check_stack();
         let watch = job.checked.then(|| checks::trace(job, trace));
@@ -189,29 +193,41 @@ impl<'c> Call<'c> {
     pub fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
         let (job, index) = (self.job, call.index as usize);
         let Some(&program) = job.sbt.callables.programs().get(index) else {
-            trap(format!(
-                "there is no callable {index}: the table has {} (guide 7.2, D018)",
-                job.sbt.callables.programs().len()
-            ))
+            trap(
+                &rules::CALLABLE_RECORD,
+                format!("there is no callable {index}: the table has {}", job.sbt.callables.programs().len()),
+            )
         };
         let callable = &job.description.callables[program];
         if (callable.continuation, callable.signature) != (call.continuation, call.signature) {
-            trap(format!(
-                "{} is called with another signature or as another kind (guide 15.2, I003)",
-                callable.entry.name
-            ));
+            trap(
+                &rules::CALLABLE_SIGNATURE,
+                format!("{} is called with another signature or as another kind", callable.entry.name),
+            );
         }
         let callables = self.callables + 1;
         if callables > job.depths.callables() {
-            trap(format!(
-                "callables call each other deeper than the pipeline's {} levels: state `callable_depth: N` in `pipeline!` \
-                 (guide 6.8, I013)",
-                job.depths.callables()
-            ));
+            trap(
+                &rules::CALLABLE_DEPTH,
+                format!(
+                    "callables call each other deeper than the pipeline's {} levels: state `callable_depth: N` in `pipeline!`",
+                    job.depths.callables()
+                ),
+            );
         }
         self.check_stack();
         let callee = Call { callables, payload: Cell::from_mut(words), watch: None, ..*self };
         let _ = callee.run(&callable.entry, &job.sbt.callables, index, Seen::NOTHING, &callee);
+    }
+
+    /// The programs of a hit record, one of which is to run.
+    #[inline]
+    pub fn hit_programs(&self, sbt_index: u32) -> &'c HitPrograms {
+        let (ray, programs) = self.job.hit_programs(sbt_index);
+        if let Some(watch) = self.watch {
+            watch.runs(ray);
+        }
+        programs
     }
 
     /// Traverses, and runs the closest-hit or the miss program.
@@ -235,6 +251,9 @@ impl<'c> Call<'c> {
         };
         let Some(hit) = kernel::trace(root, &query, &mut Traversal { call: *self, ray }) else {
             if let Some(program) = &job.ray(trace.miss_index).miss {
+                if let Some(watch) = self.watch {
+                    watch.runs(trace.miss_index as usize);
+                }
                 let miss = trace.miss_index as usize;
                 let _ = self.run(&program.entry, &job.sbt.miss, miss, Seen::without_hit(ray), self);
             }
@@ -243,7 +262,7 @@ impl<'c> Call<'c> {
         if ray.flags.closesthit_disabled() {
             return;
         }
-        if let Some(entry) = &job.hit_programs(hit.sbt_index).closesthit {
+        if let Some(entry) = &self.hit_programs(hit.sbt_index).closesthit {
             let state = HitState {
                 primitive_index: hit.primitive_index,
                 sbt_gas_index: hit.sbt_gas_index,
@@ -268,22 +287,22 @@ impl Executor for Call<'_> {
         Call::call(self, call, words);
     }
     fn report(&self, _: f32, _: u8, _: usize, _: &WordBuffer) -> bool {
-        trap("only an intersection program reports hits".into())
+        trap(&rules::KIND, "only an intersection program reports hits".into())
     }
     fn interval_end(&self) -> f32 {
-        trap("only an intersection program has an interval that shrinks".into())
+        trap(&rules::KIND, "only an intersection program has an interval that shrinks".into())
     }
     fn triangle_vertices(&self) -> [Vec3; 3] {
-        trap("there is no triangle".into())
+        trap(&rules::KIND, "there is no triangle".into())
     }
     fn gas_traversable_handle(&self) -> u64 {
-        trap("there is no primitive, so no GAS".into())
+        trap(&rules::KIND, "there is no primitive, so no GAS".into())
     }
     fn transform_list_size(&self) -> u32 {
-        trap("there is no primitive, so no transform list".into())
+        trap(&rules::KIND, "there is no primitive, so no transform list".into())
     }
     fn transform_list_handle(&self, _: u32) -> u64 {
-        trap("there is no primitive, so no transform list".into())
+        trap(&rules::KIND, "there is no primitive, so no transform list".into())
     }
     unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
         let placed = match self.job.reached.read.get(ias) {
@@ -295,7 +314,7 @@ impl Executor for Call<'_> {
     unsafe fn instance(&self, handle: u64) -> InstanceState {
         // SAFETY: the caller's.
         let Some(placed) = (unsafe { handle::instance(handle) }) else {
-            trap("a handle is of no instance (guide 13.11)".into())
+            trap(&rules::INSTANCE_HANDLE, "a handle is of no instance".into())
         };
         InstanceState {
             id: placed.instance.instance_id,
@@ -311,13 +330,13 @@ impl Executor for Call<'_> {
         };
         match vertices {
             Some(vertices) => vertices.map(Vec3::from_array),
-            None => trap(format!("there is no triangle {primitive} of record {sbt_gas_index} (guide 13.9, G058)")),
+            None => trap(&rules::TRIANGLE_INDEX, format!("there is no triangle {primitive} of record {sbt_gas_index}")),
         }
     }
     fn object_to_world(&self) -> [[f32; 4]; 3] {
-        trap("there is no hit, so no transform".into())
+        trap(&rules::KIND, "there is no hit, so no transform".into())
     }
     fn world_to_object(&self) -> [[f32; 4]; 3] {
-        trap("there is no hit, so no transform".into())
+        trap(&rules::KIND, "there is no hit, so no transform".into())
     }
 }

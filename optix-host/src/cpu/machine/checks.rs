@@ -1,8 +1,8 @@
-//! What the checked mode traps: what the OptiX guide calls undefined or leaves to the application.
+//! How the checked mode finds out what the OptiX guide calls undefined or leaves to the application.
 //!
 //! Each message names the rule and its item in the guide's checklist, such as `G010`.
 
-use super::{Job, trap};
+use super::{Job, rules, trap};
 use crate::cpu::kernel::{Aabb, Site};
 use core::cell::RefCell;
 use optix_device_rs::host::{PayloadDescription, PayloadWatch, TraceCall};
@@ -13,41 +13,38 @@ pub(super) fn trace(job: &Job<'_>, trace: &TraceCall) -> Watch {
     let ray = &trace.ray;
     for (what, vector) in [("origin", ray.origin), ("direction", ray.direction)] {
         if !vector.is_finite() {
-            trap(format!("the ray's {what} {vector} is not finite (guide 13.2, G008)"));
+            trap(&rules::RAY, format!("the ray's {what} {vector} is not finite"));
         }
     }
     if ray.direction == glam::Vec3::ZERO {
-        trap("the ray has no direction: all its elements are 0 (guide 13.2, G008)".into());
+        trap(&rules::RAY, "the ray has no direction: all its elements are 0".into());
     }
     // An infinite tmax is an interval without end.
     if ray.tmin.is_nan() || ray.tmin.is_infinite() {
-        trap(format!("tmin is {} (guide 13.2, G010)", ray.tmin));
+        trap(&rules::INTERVAL, format!("tmin is {}", ray.tmin));
     }
     if ray.tmax.is_nan() || ray.tmax == f32::NEG_INFINITY {
-        trap(format!("tmax is {} (guide 13.2, G010)", ray.tmax));
+        trap(&rules::INTERVAL, format!("tmax is {}", ray.tmax));
     }
     if ray.tmin < 0.0 {
-        trap(format!("tmin is negative: {} (guide 13.2, G010)", ray.tmin));
+        trap(&rules::INTERVAL, format!("tmin is negative: {}", ray.tmin));
     }
     // Exclusive among themselves: four about any-hit, two about culling by face.
-    for (group, rule) in [(1 | 2 | 64 | 128, "G016 to G019"), (16 | 32, "G023")] {
+    for (group, rule) in [(1 | 2 | 64 | 128, &rules::ANYHIT_FLAGS), (16 | 32, &rules::CULL_FLAGS)] {
         if (ray.flags.bits() & group).count_ones() > 1 {
-            trap(format!(
-                "the ray flags {:#x} have two that exclude each other (guide 13.2, {rule})",
-                ray.flags.bits()
-            ));
+            trap(rule, format!("the ray flags {:#x} have two that exclude each other", ray.flags.bits()));
         }
     }
-    Watch::new(job.ray(trace.miss_index).payload, trace.caller_writes)
+    Watch::new(job.ray(trace.miss_index).payload, trace)
 }
 
 /// Checks a report at a primitive, while hits up to `tmax` count.
 pub(super) fn report(site: &Site<'_>, tmax: f32, t: f32, kind: u8) {
     if kind > 127 {
-        trap(format!("hit kind {kind} is reported: 128 to 255 are of built-in primitives (guide 13.4, G030)"));
+        trap(&rules::HIT_KIND, format!("hit kind {kind} is reported: 128 to 255 are of built-in primitives"));
     }
     if t.is_nan() {
-        trap("a hit is reported at t = NaN (guide 13.4, G034)".into());
+        trap(&rules::HIT_NAN, "a hit is reported at t = NaN".into());
     }
     // A report outside of the interval is lawful, and no hit.
     if (site.query.tmin..=tmax).contains(&t)
@@ -61,10 +58,13 @@ pub(super) fn report(site: &Site<'_>, tmax: f32, t: f32, kind: u8) {
             (origin + way).clamp(f64::from(min[a]) - slack, f64::from(max[a]) + slack) - (origin + way)
         });
         if at != [0.0; 3] {
-            trap(format!(
-                "a hit is reported at t = {t}, outside of the primitive's box from {min:?} to {max:?} by {at:?}: rays that pass \
-                 the box by don't find it (guide 5.1, B039)"
-            ));
+            trap(
+                &rules::OUTSIDE_BOX,
+                format!(
+                    "a hit is reported at t = {t}, outside of the primitive's box from {min:?} to {max:?} by {at:?}: rays that \
+                     pass the box by don't find it"
+                ),
+            );
         }
     }
 }
@@ -72,24 +72,43 @@ pub(super) fn report(site: &Site<'_>, tmax: f32, t: f32, kind: u8) {
 /// What is known of a trace call's payload.
 pub(super) struct Watch {
     payload: PayloadDescription,
+    /// The payload type of the trace call: the bits of `OptixPayloadTypeID`.
+    payload_type: u32,
     /// Per field: whether the caller or a program has written it.
     written: RefCell<Vec<bool>>,
 }
 
 impl Watch {
-    fn new(payload: PayloadDescription, caller_writes: &'static [usize]) -> Self {
-        let watch = Self { payload, written: RefCell::new(vec![false; payload.fields.len()]) };
-        watch.gives(caller_writes);
+    fn new(payload: PayloadDescription, trace: &TraceCall) -> Self {
+        let written = RefCell::new(vec![false; payload.fields.len()]);
+        let watch = Self { payload, payload_type: trace.payload_type, written };
+        watch.gives(trace.caller_writes);
         watch
+    }
+
+    /// A program for rays of this type is about to run.
+    pub fn runs(&self, ray: usize) {
+        if self.payload_type != 1 << ray {
+            trap(
+                &rules::PAYLOAD_TYPE,
+                format!(
+                    "payload type {:#x} is traced, but the record that the ray comes to is of programs for {:#x}",
+                    self.payload_type,
+                    1 << ray
+                ),
+            );
+        }
     }
 
     /// The trace call returns, and its caller takes these fields.
     pub fn returns(&self, fields: &'static [usize]) {
         if let Some(field) = self.unwritten(fields) {
-            trap(format!(
-                "{field} comes back to the caller, which reads it, but neither the caller nor any program of this trace \
-                 wrote it (guide 14, H024)"
-            ));
+            trap(
+                &rules::PAYLOAD_UNWRITTEN,
+                format!(
+                    "{field} comes back to the caller, which reads it, but neither the caller nor any program of this trace wrote it"
+                ),
+            );
         }
     }
 
@@ -108,7 +127,10 @@ impl Watch {
 impl PayloadWatch for Watch {
     fn takes(&self, fields: &'static [usize]) {
         if let Some(field) = self.unwritten(fields) {
-            trap(format!("{field} is read, but neither the caller nor any program wrote it (guide 14, H024)"));
+            trap(
+                &rules::PAYLOAD_UNWRITTEN,
+                format!("{field} is read, but neither the caller nor any program wrote it"),
+            );
         }
     }
 

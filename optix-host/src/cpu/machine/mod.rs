@@ -7,12 +7,14 @@
 //! | `exceptions` | what is thrown, and what becomes of it |
 //! | `handle` | traversable handles |
 //! | `stack` | how much of its stack a thread has left |
-//! | `checks` | what the checked mode traps |
+//! | `rules` | what launches end for |
+//! | `checks` | how the checked mode finds out |
 
 mod call;
 mod checks;
 mod exceptions;
 mod handle;
+mod rules;
 mod stack;
 #[cfg(test)]
 mod tests;
@@ -29,6 +31,7 @@ use glam::UVec3;
 use optix_device_rs::host::end::{self, End};
 use optix_device_rs::host::{ByHandle, HitPrograms, PipelineDescription, RayDescription, Reach};
 use rayon::prelude::*;
+use rules::Rule;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -86,22 +89,25 @@ impl<'a> Job<'a> {
     fn ray(&self, miss_index: u32) -> &RayDescription {
         match self.description.rays.get(miss_index as usize) {
             Some(ray) => ray,
-            None => trap(format!(
-                "there is no miss record {miss_index}: the pipeline has {} (guide 13.2, G012)",
-                self.description.rays.len()
-            )),
+            None => trap(
+                &rules::MISS_RECORD,
+                format!("there is no miss record {miss_index}: the pipeline has {}", self.description.rays.len()),
+            ),
         }
     }
 
-    /// The programs of a hit record. Without such a record, the program that made the hit ends the launch.
+    /// The ray type and the programs of a hit record. Without such a record, the program that made the hit ends the launch.
     #[inline]
-    fn hit_programs(&self, sbt_index: u32) -> &HitPrograms {
+    fn hit_programs(&self, sbt_index: u32) -> (usize, &'a HitPrograms) {
         match self.sbt.hit.programs().get(sbt_index as usize) {
-            Some(slot) => &self.description.hitgroups[slot.group].rays[slot.ray],
-            None => trap(format!(
-                "a hit asks for record {sbt_index} of the hit-group table, which has {} (guide 7.3, D016)",
-                self.sbt.hit.programs().len()
-            )),
+            Some(slot) => (slot.ray, &self.description.hitgroups[slot.group].rays[slot.ray]),
+            None => trap(
+                &rules::HIT_RECORD,
+                format!(
+                    "a hit asks for record {sbt_index} of the hit-group table, which has {}",
+                    self.sbt.hit.programs().len()
+                ),
+            ),
         }
     }
 }
@@ -142,10 +148,10 @@ fn run_all(job: &Job<'_>) -> Result<()> {
     }
 }
 
-/// Ends the launch index; the message names the rule that the running program broke.
+/// Ends the launch index: the running program broke the rule, and says `what` of that.
 #[cold]
-fn trap(what: String) -> ! {
-    end::end(End::Failed(what))
+fn trap(rule: &Rule, what: String) -> ! {
+    end::end(End::Failed(format!("{what} (guide {})", rule.guide)))
 }
 
 fn run_index(job: &Job<'_>, index: UVec3) -> Result<()> {

@@ -12,7 +12,7 @@ use optix_device_rs::host::{
 };
 use optix_device_rs::machine::Cx;
 use optix_device_rs::payload::Field;
-use optix_device_rs::prelude::{AnyHitMode, Decision, Ray, RayFlags};
+use optix_device_rs::prelude::{AnyHitMode, CullFaces, Decision, Ray, RayFlags};
 use optix_device_rs::words::WordBuffer;
 
 /// What the programs do. Fields are of the payload.
@@ -27,6 +27,8 @@ struct Script {
     miss_gives: &'static [usize],
     report: (f32, u32),
     callable: Called,
+    /// What the ray-generation program asks, of the structure with this handle.
+    asks: fn(Cx, u64),
 }
 
 /// What the ray-generation program calls.
@@ -92,6 +94,7 @@ macro_rules! programs {
 programs! {
     raygen: |cx| {
         call(cx);
+        (script().asks)(cx, script().call.traversable);
         cx.trace(&script().call, WordBuffer::ZERO)
     };
     direct: |cx| {
@@ -193,6 +196,7 @@ fn lawful(custom: bool) -> Script {
         miss_gives: &[],
         report,
         callable: Called::Nothing,
+        asks: |_, _| {},
     }
 }
 
@@ -218,6 +222,7 @@ fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned
     let handle = Handle::issue();
     let mut reached = Reached::default();
     reached.traced.insert(&handle, &accel);
+    reached.read.insert(&handle, &accel);
     if script.call.traversable == 0 {
         script.call.traversable = handle.number();
     }
@@ -253,13 +258,14 @@ fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned
 
 /// The call, changed, is trapped in checked mode, with all of these words in the message, and not otherwise.
 #[track_caller]
-fn traps(custom: bool, change: impl FnOnce(&mut Script), program: &str, words: &[&str]) {
+fn traps(custom: bool, change: impl FnOnce(&mut Script), program: &str, rule: &Rule, words: &[&str]) {
     assert_eq!(run(custom, true, lawful(custom)), None);
     let mut script = lawful(custom);
     change(&mut script);
     assert_eq!(run(custom, false, script), None);
     let message = run(custom, true, script).expect("the checked mode says nothing");
-    for part in [program, "[3, 1, 0]"].iter().chain(words) {
+    let guide = format!("(guide {})", rule.guide);
+    for part in [program, "[3, 1, 0]", &guide].iter().chain(words) {
         assert!(message.contains(part), "no `{part}` in: {message}");
     }
 }
@@ -267,18 +273,18 @@ fn traps(custom: bool, change: impl FnOnce(&mut Script), program: &str, words: &
 #[test]
 fn rays_that_are_not_finite() {
     let raygen = "__raygen__test";
-    traps(false, |s| s.call.ray.origin.y = f32::NAN, raygen, &["origin [0.25, NaN, 2] is not finite", "G008"]);
-    traps(false, |s| s.call.ray.direction.z = f32::INFINITY, raygen, &["direction", "not finite", "G008"]);
-    traps(false, |s| s.call.ray.direction = Vec3::ZERO, raygen, &["no direction", "G008"]);
+    traps(false, |s| s.call.ray.origin.y = f32::NAN, raygen, &rules::RAY, &["origin [0.25, NaN, 2] is not finite"]);
+    traps(false, |s| s.call.ray.direction.z = f32::INFINITY, raygen, &rules::RAY, &["direction", "not finite"]);
+    traps(false, |s| s.call.ray.direction = Vec3::ZERO, raygen, &rules::RAY, &["no direction"]);
 }
 
 #[test]
 fn intervals() {
     let raygen = "__raygen__test";
-    traps(false, |s| s.call.ray.tmin = -1e-3, raygen, &["tmin is negative: -0.001", "G010"]);
-    traps(false, |s| s.call.ray.tmin = f32::NAN, raygen, &["tmin is NaN", "G010"]);
-    traps(false, |s| s.call.ray.tmin = f32::INFINITY, raygen, &["tmin is inf", "G010"]);
-    traps(false, |s| s.call.ray.tmax = f32::NAN, raygen, &["tmax is NaN", "G010"]);
+    traps(false, |s| s.call.ray.tmin = -1e-3, raygen, &rules::INTERVAL, &["tmin is negative: -0.001"]);
+    traps(false, |s| s.call.ray.tmin = f32::NAN, raygen, &rules::INTERVAL, &["tmin is NaN"]);
+    traps(false, |s| s.call.ray.tmin = f32::INFINITY, raygen, &rules::INTERVAL, &["tmin is inf"]);
+    traps(false, |s| s.call.ray.tmax = f32::NAN, raygen, &rules::INTERVAL, &["tmax is NaN"]);
     let mut endless = lawful(false);
     endless.call.ray.tmax = f32::INFINITY;
     assert_eq!(run(false, true, endless), None);
@@ -287,18 +293,106 @@ fn intervals() {
 #[test]
 fn flags_that_exclude_each_other() {
     // SAFETY: on the CPU, which refuses those that exclude each other.
-    let both = |a: RayFlags, b: RayFlags| unsafe { RayFlags::from_bits(a.bits() | b.bits()) };
-    let disable = RayFlags::NONE.any_hit(AnyHitMode::Disable);
-    let enforce = RayFlags::NONE.any_hit(AnyHitMode::Enforce);
-    traps(false, |s| s.call.ray.flags = both(disable, enforce), "__raygen__test", &["0x3", "exclude", "G016"]);
+    let flags = |bits: u32| unsafe { RayFlags::from_bits(bits) };
+    for (rule, group) in [(&rules::ANYHIT_FLAGS, &[1, 2, 64, 128][..]), (&rules::CULL_FLAGS, &[16, 32])] {
+        for (i, one) in group.iter().enumerate() {
+            for other in &group[..i] {
+                let words = ["exclude", &format!("{:#x}", one | other)];
+                let all = |s: &mut Script| s.call.ray.flags = flags(one | other | 4);
+                let both = |s: &mut Script| s.call.ray.flags = flags(one | other);
+                traps(false, both, "__raygen__test", rule, &words);
+                traps(false, all, "__raygen__test", rule, &words[..1]);
+            }
+        }
+    }
+    for anyhit in [AnyHitMode::Default, AnyHitMode::Disable, AnyHitMode::Enforce] {
+        for faces in [CullFaces::None, CullFaces::Back] {
+            let mut lawful = lawful(false);
+            lawful.call.ray.flags = RayFlags::NONE.any_hit(anyhit).cull(faces);
+            assert_eq!(run(false, true, lawful), None);
+        }
+    }
+}
+
+/// The record or the miss index of another ray type than the call's payload.
+#[test]
+fn programs_of_another_payload_type() {
+    let other = |s: &mut Script| s.call.payload_type = 2;
+    for (custom, program) in [(false, "__raygen__test"), (true, "__raygen__test")] {
+        traps(custom, other, program, &rules::PAYLOAD_TYPE, &["payload type 0x2 is traced", "for 0x1"]);
+    }
+    let missing = |s: &mut Script| (s.call.payload_type, s.call.ray.direction) = (4, Vec3::Z);
+    traps(false, missing, "__raygen__test", &rules::PAYLOAD_TYPE, &["payload type 0x4"]);
+}
+
+/// No typed program can ask these; they are trapped in either mode, since there is no answer.
+#[test]
+fn questions_without_an_answer() {
+    for checked in [false, true] {
+        for (i, (rule, asks)) in unsafe_asks().into_iter().enumerate() {
+            let message =
+                run(false, checked, Script { asks, ..lawful(false) }).unwrap_or_else(|| panic!("question {i}"));
+            let guide = format!("(guide {})", rule.guide);
+            assert!(message.contains(&guide) && message.contains("__raygen__test"), "{message}");
+        }
+        let mut elsewhere = lawful(false);
+        elsewhere.call.traversable = u64::MAX;
+        let message = run(false, checked, elsewhere).unwrap();
+        assert!(message.contains("kept from another launch") && message.contains(rules::HELD.guide), "{message}");
+        // The triangle that is there.
+        // SAFETY: as above.
+        let asks: fn(Cx, u64) = |cx, gas| unsafe {
+            cx.triangle_vertices_from_handle(gas, 0, 0);
+        };
+        assert_eq!(run(false, checked, Script { asks, ..lawful(false) }), None);
+    }
+}
+
+/// Questions of a ray-generation program, and the rules that they break.
+fn unsafe_asks() -> [(&'static Rule, fn(Cx, u64)); 10] {
+    // SAFETY: the executor answers none of these, and says why.
+    unsafe {
+        [
+            (&rules::KIND, |cx, _| {
+                cx.report(1.0, 0, 0, &WordBuffer::ZERO);
+            }),
+            (&rules::KIND, |cx, _| {
+                cx.interval_end();
+            }),
+            (&rules::KIND, |cx, _| {
+                cx.triangle_vertices();
+            }),
+            (&rules::KIND, |cx, _| {
+                cx.gas_traversable_handle();
+            }),
+            (&rules::KIND, |cx, _| {
+                cx.transform_list_size();
+            }),
+            (&rules::KIND, |cx, _| {
+                cx.object_to_world();
+            }),
+            (&rules::HELD, |cx, gas| {
+                cx.instance_traversable_from_ias(gas, 0);
+            }),
+            (&rules::INSTANCE_HANDLE, |cx, _| {
+                cx.instance_id_from_handle(0);
+            }),
+            (&rules::TRIANGLE_INDEX, |cx, gas| {
+                cx.triangle_vertices_from_handle(gas, 1, 0);
+            }),
+            (&rules::HELD, |cx, _| {
+                cx.triangle_vertices_from_handle(u64::MAX, 0, 0);
+            }),
+        ]
+    }
 }
 
 #[test]
 fn reported_hits() {
     let program = "__intersection__test";
-    traps(true, |s| s.report.1 = 128, program, &["hit kind 128", "G030"]);
-    traps(true, |s| s.report.0 = f32::NAN, program, &["t = NaN", "G034"]);
-    traps(true, |s| s.report.0 = 0.5, program, &["t = 0.5, outside of the primitive's box", "B039"]);
+    traps(true, |s| s.report.1 = 128, program, &rules::HIT_KIND, &["hit kind 128"]);
+    traps(true, |s| s.report.0 = f32::NAN, program, &rules::HIT_NAN, &["t = NaN"]);
+    traps(true, |s| s.report.0 = 0.5, program, &rules::OUTSIDE_BOX, &["t = 0.5, outside of the primitive's box"]);
     // Outside of the interval it is no hit.
     let mut behind = lawful(true);
     (behind.report.0, behind.call.ray.tmin) = (0.5, 1.0);
@@ -313,7 +407,13 @@ fn payload_fields_that_nobody_wrote() {
         s.closesthit_takes = &[0, 2];
         s.call.ray.flags = RayFlags::NONE.any_hit(AnyHitMode::Disable);
     };
-    traps(false, change, "__closesthit__test", &["payload field `Radiance::hits` (word 2) is read", "H024"]);
+    traps(
+        false,
+        change,
+        "__closesthit__test",
+        &rules::PAYLOAD_UNWRITTEN,
+        &["payload field `Radiance::hits` (word 2) is read"],
+    );
     // With any-hit it is lawful.
     let mut given = lawful(false);
     (given.anyhit_gives, given.closesthit_takes) = (&[2], &[2]);
@@ -328,7 +428,13 @@ fn payload_fields_that_come_back_unwritten() {
         // SAFETY: one flag excludes none.
         s.call.ray.flags = unsafe { RayFlags::from_bits(8) };
     };
-    traps(false, change, "__raygen__test", &["payload field `Radiance::light` (words 3 to 4)", "comes back", "H024"]);
+    traps(
+        false,
+        change,
+        "__raygen__test",
+        &rules::PAYLOAD_UNWRITTEN,
+        &["payload field `Radiance::light` (words 3 to 4)", "comes back"],
+    );
     for towards in [Vec3::NEG_Z, Vec3::Z] {
         let mut given = lawful(false);
         change(&mut given);
@@ -345,21 +451,24 @@ fn records_and_depth() {
         outside.call.sbt_offset = 2;
         let message = run(false, checked, outside).unwrap();
         assert!(message.contains("record 2 of the hit-group table, which has 2"), "{message}");
-        assert!(message.contains("D016"), "{message}");
+        assert!(message.contains(rules::HIT_RECORD.guide), "{message}");
 
         let mut deep = lawful(false);
         deep.nested = 1;
         assert_eq!(run(false, checked, deep), None);
         deep.nested = 2;
         let message = run(false, checked, deep).unwrap();
-        assert!(message.contains("trace depth of 2") && message.contains("G013"), "{message}");
+        assert!(message.contains("trace depth of 2") && message.contains(rules::TRACE_DEPTH.guide), "{message}");
         assert!(message.contains("__closesthit__test"), "{message}");
 
         let mut nowhere = lawful(false);
         nowhere.call.ray.direction = Vec3::Z;
         nowhere.call.miss_index = 1;
         let message = run(false, checked, nowhere).unwrap();
-        assert!(message.contains("no miss record 1: the pipeline has 1") && message.contains("G012"), "{message}");
+        assert!(
+            message.contains("no miss record 1: the pipeline has 1") && message.contains(rules::MISS_RECORD.guide),
+            "{message}"
+        );
     }
 }
 
@@ -370,13 +479,21 @@ fn callables() {
         let run = |callable| run(false, checked, Script { callable, ..lawful(false) });
         assert_eq!(run(Called::Record(0, true)), None);
         let message = run(Called::Record(1, true)).unwrap();
-        assert!(message.contains("no callable 1: the table has 1") && message.contains("D018"), "{message}");
+        assert!(
+            message.contains("no callable 1: the table has 1") && message.contains(rules::CALLABLE_RECORD.guide),
+            "{message}"
+        );
         let message = run(Called::Record(0, false)).unwrap();
-        assert!(message.contains("__direct_callable__test") && message.contains("I003"), "{message}");
+        assert!(
+            message.contains("__direct_callable__test") && message.contains(rules::CALLABLE_SIGNATURE.guide),
+            "{message}"
+        );
         assert_eq!(run(Called::Nested(2)), None);
         let message = run(Called::Nested(3)).unwrap();
         assert!(
-            message.contains("3 levels") && message.contains("callable_depth") && message.contains("I013"),
+            message.contains("3 levels")
+                && message.contains("callable_depth")
+                && message.contains(rules::CALLABLE_DEPTH.guide),
             "{message}"
         );
     }
@@ -396,7 +513,13 @@ fn stacks_that_are_used_up() {
     let calls = Script { callable: Called::Nested(1_000_000), ..lawful(false) };
     for (script, program) in [(traces, "__closesthit__test"), (calls, "__direct_callable__test")] {
         let Outcome::Trapped(message) = in_thread(script, endless) else { panic!("there is no such stack") };
-        assert!(message.contains("stack") && message.contains(program) && message.contains("[3, 1, 0]"), "{message}");
+        assert!(
+            message.contains("stack")
+                && message.contains(rules::STACK.guide)
+                && message.contains(program)
+                && message.contains("[3, 1, 0]"),
+            "{message}"
+        );
         let exceptions = Exceptions { stack_overflow: true, ..PLANNED.exceptions };
         let Outcome::Thrown(what) = in_thread(script, Planned { exceptions, ..endless }) else {
             panic!("no exception")

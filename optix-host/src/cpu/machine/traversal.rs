@@ -127,7 +127,7 @@ fn seen(site: &Site<'_>, ray: Ray, kind: u8, attributes: [u32; 8]) -> Seen {
 impl Programs for Traversal<'_> {
     fn any_hit(&mut self, candidate: &Candidate<'_>) -> kernel::AnyHit {
         let (call, site) = (&self.call, &candidate.site);
-        let Some(entry) = &call.job.hit_programs(site.sbt_index).anyhit else { return kernel::AnyHit::Accept };
+        let Some(entry) = &call.hit_programs(site.sbt_index).anyhit else { return kernel::AnyHit::Accept };
         let executor = AtHit { call, path: site.path, vertices: || candidate.triangle_vertices() };
         let ray = Ray { tmax: candidate.t, ..self.ray };
         let seen = seen(site, ray, candidate.hit_kind, candidate.attributes);
@@ -140,7 +140,7 @@ impl Programs for Traversal<'_> {
 
     fn intersect(&mut self, site: &Site<'_>, reporter: &mut Reporter<'_, '_>) {
         let (call, ray) = (self.call, self.ray);
-        let Some(entry) = &call.job.hit_programs(site.sbt_index).intersection else { return };
+        let Some(entry) = &call.hit_programs(site.sbt_index).intersection else { return };
         let executor = AtPrimitive {
             call: &call,
             path: site.path,
