@@ -1,8 +1,7 @@
 //! `#[derive(UserException)]`.
 
 use crate::data::copy_bound;
-use crate::shape::{Repr, differs};
-use crate::source::target_dependent;
+use crate::shape::Repr;
 use crate::support::{Errors, block, device_crate, moved, name, place_of, ungroup};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
@@ -11,8 +10,8 @@ use syn::{Data, DataEnum, DeriveInput, Ident, Index, Member, Type, Variant};
 pub fn derive(input: &DeriveInput) -> TokenStream {
     let mut errors = Errors::default();
     let what = "what programs throw";
-    let (variants, variants_span) = match &input.data {
-        Data::Enum(DataEnum { variants, brace_token, .. }) => (variants, brace_token.span.join()),
+    let variants = match &input.data {
+        Data::Enum(DataEnum { variants, .. }) => variants,
         Data::Struct(data) => {
             errors.at(
                 data.struct_token,
@@ -33,9 +32,6 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     }
     if variants.is_empty() {
         errors.at(&input.ident, format!("`{}` has no variants, so it could never be thrown", input.ident));
-    }
-    if let Some(attribute) = target_dependent(variants_span) {
-        errors.at(&input.ident, differs(what, &attribute));
     }
     for ty in variants.iter().flat_map(|variant| &variant.fields).map(|field| &field.ty) {
         if matches!(ungroup(ty), Type::Reference(_)) {

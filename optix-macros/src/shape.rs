@@ -1,7 +1,6 @@
 //! Structs as the derives see them.
 
-use crate::source::target_dependent;
-use crate::support::{Errors, cfg_of, mentions, name, ungroup};
+use crate::support::{Errors, mentions, name, ungroup};
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, quote};
 use syn::spanned::Spanned;
@@ -94,14 +93,6 @@ fn is_no_field(field: &syn::Field, of: &Ident, what: &str, errors: &mut Errors) 
     true
 }
 
-/// Why a field that only one machine has is refused.
-pub fn differs(what: &str, attribute: &str) -> String {
-    format!(
-        "`{attribute}` makes {what} another one on the device than on the host, and what one writes the other reads; write two \
-         types for two uses, or the field for both machines"
-    )
-}
-
 impl Struct {
     /// Reads a struct. `what` is what it is to become: "a payload", "an SBT record".
     pub fn parse(input: &DeriveInput, what: &str, tuples: bool, errors: &mut Errors) -> Option<Self> {
@@ -122,11 +113,6 @@ impl Struct {
             );
             errors.at(&input.generics, message);
             return None;
-        }
-        // What an attribute's macro sees, it reports itself.
-        let unseen = !data.fields.iter().any(|field| cfg_of(&field.attrs).is_some());
-        if unseen && let Some(attribute) = target_dependent(data.fields.span()) {
-            errors.at(&input.ident, differs(what, &attribute));
         }
         let form = match &data.fields {
             Fields::Named(_) => Form::Named,

@@ -1,19 +1,26 @@
 //! What a macro does not see: rustc takes out what `#[cfg(..)]` says no to before a derive runs.
 
-use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
+use syn::Data;
+use syn::spanned::Spanned;
 
 /// What says which machine, or which of its builds, is compiled for.
 const OF_TARGET: [&str; 6] = ["windows", "unix", "debug_assertions", "overflow_checks", "panic", "test"];
 /// Attributes that change what a derive makes of a field.
 const OF_FIELDS: [&str; 2] = ["payload", "view"];
 
-/// An attribute of a field in the braces at `span` which lets the field depend on the target. That is for the message, which comes
-/// at once; that both machines lay types out alike is proven by the layouts in the PTX.
-pub fn target_dependent(span: Span) -> Option<String> {
+/// An attribute which lets a field depend on the target. That is for the message, which comes at once; that both machines lay
+/// types out alike is proven by the layouts in the PTX.
+pub fn target_dependent(data: &Data) -> Option<String> {
     if !proc_macro::is_available() {
         return None;
     }
+    let span = match data {
+        Data::Struct(data) => data.fields.span(),
+        Data::Enum(data) => data.brace_token.span.join(),
+        Data::Union(data) => data.fields.span(),
+    };
     let text = span.unwrap().source_text()?;
     if text.contains("cfg") { of_field(text.parse().ok()?) } else { None }
 }

@@ -1,6 +1,6 @@
 //! What every macro needs: the path of the device crate, errors as values, names.
 
-use crate::{compiler, depth};
+use crate::{compiler, depth, source};
 use proc_macro2::{Group, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use std::collections::BTreeSet;
@@ -58,10 +58,20 @@ pub fn derive(input: TokenStream, make: fn(&DeriveInput) -> TokenStream) -> Toke
     if !may_begin(&input, false, &mut errors) {
         return errors.into_tokens();
     }
-    match syn::parse2(input) {
-        Ok(input) => make(&input),
-        Err(error) => error.into_compile_error(),
+    let input: DeriveInput = match syn::parse2(input) {
+        Ok(input) => input,
+        Err(error) => return error.into_compile_error(),
+    };
+    if let Some(attribute) = source::target_dependent(&input.data) {
+        let ident = &input.ident;
+        let message = format!(
+            "`{attribute}` makes `{ident}` another type on the device than on the host, where what one writes the other reads: \
+             write the field for both, or two types for two uses"
+        );
+        errors.at(ident, message);
     }
+    let (errors, items) = (errors.into_tokens(), make(&input));
+    quote!(#errors #items)
 }
 
 /// What generated code calls the device crate; see [`block`].

@@ -2,6 +2,7 @@
 
 mod common;
 
+use std::fs;
 use std::path::Path;
 
 use optix_toolchain::Shaders;
@@ -18,9 +19,12 @@ fn the_workspaces_shaders_are_sound() {
         return;
     }
     let mut kinds = Vec::new();
-    for (path, pipeline) in
-        [("examples/path-tracer/shaders", "PathTracer"), ("tests/shaders", "Probe"), ("tests/golden/typed", "Golden")]
-    {
+    for (path, pipeline) in [
+        ("examples/path-tracer/shaders", "PathTracer"),
+        ("tests/shaders", "Probe"),
+        ("tests/golden/typed", "Golden"),
+        ("tests/renamed", "Flat"),
+    ] {
         let verified = verified(path);
         assert!(verified.findings.is_empty(), "{path}: {:#?}", verified.findings);
         assert!(verified.pipelines.iter().any(|found| found.name == pipeline), "{path}: {:?}", verified.pipelines);
@@ -64,4 +68,39 @@ fn damage_to_real_ptx_is_found() {
     assert_eq!(rules(&built.text.replace("_optix_trace_typed_32", "_optix_trace_32")), [Rule::Trace]);
     let entry = &pipelines[0].programs[0].entry;
     assert_eq!(rules(&built.text.replace(entry.as_str(), "__raygen__nobody")), [Rule::Entry]);
+}
+
+#[test]
+fn types_that_differ_on_the_device_are_named() {
+    if !common::can_compile("types_that_differ_on_the_device_are_named") {
+        return;
+    }
+    let (shaders, workspace) = (common::folder("layouts"), Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
+    let manifest = format!(
+        "[package]\nname = \"layouts\"\nedition = \"2024\"\n[dependencies]\noptix-device-rs.path = {:?}\n[workspace]\n",
+        workspace.join("optix-device-rs")
+    );
+    fs::create_dir(shaders.join("src")).expect("writable");
+    fs::write(shaders.join("Cargo.toml"), manifest).expect("writable");
+    fs::write(shaders.join("src/lib.rs"), include_str!("fixture/layouts.rs")).expect("writable");
+    fs::copy(workspace.join("Cargo.lock"), shaders.join("Cargo.lock")).expect("the versions that are downloaded");
+    let verified = Shaders::new(&shaders).verify_in(common::area(), &[]).expect("it compiles");
+    let layouts = verified.findings.iter().filter(|finding| finding.rule == Rule::Layout);
+    let mut found: Vec<String> = layouts.map(|finding| format!("{}: {}", finding.item, finding.message)).collect();
+    found.sort();
+    let other = |what: &str| format!("{what} of its ");
+    let expected = [
+        other("attributes `BallHit` of `Flat`:"),
+        other("exception `Fault` of `Flat`:"),
+        other("launch parameters `Frame` of `Flat`:"),
+        "payload `Radiance` of `Flat`: the PTX has 4 words of it, the host 1".into(),
+        other("record `Paint` of `Flat`:"),
+        "record `Sky` of `Flat`: the PTX has 32 bytes of it, the host 8".into(),
+        other("record `Wood` of `Flat`:"),
+        other("signature of callable `wood` of `Flat`:"),
+    ];
+    assert_eq!(found.len(), expected.len(), "{found:#?}");
+    for (found, expected) in found.iter().zip(&expected) {
+        assert!(found.starts_with(expected), "{found}, not {expected}");
+    }
 }
