@@ -61,12 +61,12 @@ impl<P: PipelineType> Pipeline<P> {
 
     fn begin(&self, raygen: usize, params: &<P::Params as LaunchParams>::Host, dimensions: [u32; 3]) -> Result<Launch> {
         let error = |what: String| Error::Launch { pipeline: self.plan.description.name, what };
-        let size = dimensions.iter().map(|&d| d as u64).product::<u64>();
+        let size = dimensions.iter().map(|&d| u128::from(d)).product::<u128>();
         let [w, h, d] = dimensions;
         if size == 0 {
             return Err(error(format!("its dimensions {w} x {h} x {d} are empty")));
         }
-        if size > 1 << 30 || dimensions.iter().any(|&d| d as u64 > 1 << 30) {
+        if size > 1 << 30 {
             return Err(error(format!("its dimensions {w} x {h} x {d} are more than 2^30 (guide 12)")));
         }
         // SAFETY: the launch that is given the views keeps the owners.

@@ -68,6 +68,16 @@ fn scenes_and_devices_do_not_mix() {
     says(pipeline.launch(&frame(&other, world.clone()), [1, 1, 1]), &["another device"]);
     says(pipeline.launch(&frame(&device, world.clone()), [0, 1, 1]), &["empty"]);
     says(pipeline.launch(&frame(&device, world.clone()), [1 << 20, 1 << 11, 1]), &["2^30"]);
+    // Products that are 0, 1 or small in 32 or 64 bits.
+    for dimensions in [
+        [1 << 31, 2, 1],
+        [1 << 22, 1_632_737, 2_693_665],
+        [1 << 31, 1 << 31, 4],
+        [u32::MAX; 3],
+        [1 << 16, 1 << 16, 1 << 31],
+    ] {
+        says(pipeline.launch(&frame(&device, world.clone()), dimensions), &["2^30"]);
+    }
     pipeline.launch(&frame(&device, world), [1, 1, 1]).unwrap().wait().unwrap();
     // A graph that the pipeline was not specialised to.
     let deeper = a.ias([gas.at(Affine3A::IDENTITY)]).build().unwrap().world().unwrap();

@@ -192,7 +192,7 @@ impl<P: Pipeline, G: GeometryKindOf> GasBuilder<'_, P, G> {
         let input = GasInput { kind: G::KIND, inputs: inputs.collect(), compact: self.compact, random_vertex_access };
         let built = self.scene.device.backend.build_gas(&input)?;
         let records = self.members.iter().flat_map(|m| m.records.iter().copied()).collect();
-        let first_slot = state.slots_for(records);
+        let first_slot = state.slots_for(records)?;
         state.usage.add(G::KIND);
         state.usage.depths.push(0);
         Ok(Accel {
@@ -302,10 +302,10 @@ impl<P: Pipeline> IasBuilder<'_, P> {
                     instance.transform
                 )));
             }
-            let sbt_offset = child.first_slot * P::RAY_TYPES;
-            if sbt_offset > MAX_28_BITS {
+            let sbt_offset = u64::from(child.first_slot) * u64::from(P::RAY_TYPES);
+            let Some(sbt_offset) = u32::try_from(sbt_offset).ok().filter(|&offset| offset <= MAX_28_BITS) else {
                 return Err(Error::Scene(format!("instance {i} has SBT offset {sbt_offset}, more than 28 bits")));
-            }
+            };
             depth = depth.max(child.depth + 1);
             instances.push(InstanceInput {
                 transform,

@@ -1,6 +1,6 @@
 //! Callables with the data of their records (guide 15).
 
-use super::{RecordData, Scene};
+use super::{RecordData, Scene, numbered};
 use crate::{Error, Result};
 use optix_device_rs::host::{CallableRecord, CallableTable};
 use optix_device_rs::pipeline::{HasCallable, Pipeline};
@@ -54,20 +54,20 @@ impl<P: Pipeline> Scene<P> {
                 "a table of callables holds one of another scene; make it with this scene".into(),
             ));
         }
-        let first = self.state.callables.len() as u32;
+        let first = numbered(self.state.callables.len(), "callables")?;
+        let end = numbered(self.state.callables.len().saturating_add(callables.len()), "callables")?;
         let states: Vec<_> = callables.iter().map(|c| self.state.callables[c.index() as usize].clone()).collect();
         for state in states {
             self.push(state)?;
         }
-        let len = callables.len() as u32;
-        let shared = self.callables_up_to(first + len);
+        let len = end - first;
+        let shared = self.callables_up_to(end);
         // SAFETY: copies of records of programs with this signature and kind; otherwise as above.
         Ok(unsafe { CallableTable::new(first, len, self.device.backend.id(), shared) })
     }
 
     fn push(&mut self, state: CallableState) -> Result<u32> {
-        let index = u32::try_from(self.state.callables.len())
-            .map_err(|_| Error::Scene("the scene has more callables than 32 bits can number".into()))?;
+        let index = numbered(self.state.callables.len(), "callables")?;
         self.state.callables.push(state);
         Ok(index)
     }

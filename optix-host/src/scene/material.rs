@@ -1,6 +1,6 @@
 //! Materials: a record that a hit group of the pipeline reads.
 
-use super::{RecordData, Scene};
+use super::{RecordData, Scene, numbered};
 use crate::Result;
 use optix_device_rs::attributes::Geometry as GeometryKindOf;
 use optix_device_rs::pipeline::{HasHitGroup, Pipeline};
@@ -33,7 +33,7 @@ impl<P: Pipeline> Scene<P> {
         H: optix_device_rs::host::Twin<Device: SbtRecord<Host = H>>,
     {
         let record = self.lower(&record)?;
-        let index = self.state.materials.len() as u32;
+        let index = numbered(self.state.materials.len(), "materials")?;
         self.state.materials.push(MaterialState { record });
         Ok(Material { scene: self.state.id, index, types: PhantomData })
     }

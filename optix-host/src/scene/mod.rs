@@ -166,14 +166,21 @@ impl SceneState {
     }
 
     /// Where the records of a GAS whose build inputs have these materials begin; GASes with the same list share them.
-    pub(crate) fn slots_for(&mut self, materials: Vec<Slot>) -> u32 {
-        let slots = &mut self.slots;
-        *self.slots_of.entry(materials).or_insert_with_key(|materials| {
-            let first = slots.len() as u32;
-            slots.extend_from_slice(materials);
-            first
-        })
+    pub(crate) fn slots_for(&mut self, materials: Vec<Slot>) -> Result<u32> {
+        if let Some(&first) = self.slots_of.get(&materials) {
+            return Ok(first);
+        }
+        let first = numbered(self.slots.len(), "records of geometry")?;
+        numbered(self.slots.len() + materials.len(), "records of geometry")?;
+        self.slots.extend_from_slice(&materials);
+        self.slots_of.insert(materials, first);
+        Ok(first)
     }
+}
+
+/// A count that numbers of 32 bits can count.
+pub(crate) fn numbered(count: usize, what: &str) -> Result<u32> {
+    u32::try_from(count).map_err(|_| Error::Scene(format!("{count} {what} are more than 32 bits can number")))
 }
 
 impl Usage {
