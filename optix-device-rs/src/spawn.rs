@@ -1,5 +1,7 @@
 //! Hit points with an error bound, so that rays that start there don't hit the surface they left.
 
+#[cfg(target_arch = "nvptx64")]
+use crate::math::Math;
 use crate::program::Transform;
 use crate::ray::Ray;
 use glam::Vec3;
@@ -13,31 +15,70 @@ pub const fn gamma(n: u32) -> f32 {
     (nu / (1.0 - nu)) as f32 * (1.0 + 2.0 * U)
 }
 
+/// Roundings of the machine's triangle test, in the largest extent of a triangle: term 2 of the bound.
+const TEST: u32 = if cfg!(target_arch = "nvptx64") { 8 } else { 3 };
+
+/// Absolute error per object-space axis that denormal numbers can add: far above the few units of `2^-149` that it takes, far
+/// below what scenes are made of.
+const TINY: f32 = f32::MIN_POSITIVE * 16.0;
+
 /// A point on a surface in world space, with its geometric normal and a bound of its error along that normal.
+///
+/// # What is promised
+///
+/// A ray that starts at [`SurfacePoint::origin`] of its own direction does not meet the triangle that the point is on, with
+/// any `tmin >= 0`, whatever its direction: [`ray`](Self::ray). A surface that is farther away than the `error`s of both is
+/// met. A segment between two points meets neither surface, if each point is farther from the other one's plane than both
+/// errors: [`ray_to`](Self::ray_to).
+///
+/// Nothing is promised of a ray that starts in the plane of a triangle, such as at [`SurfacePoint::position`]. The interval of a
+/// ray is closed, so where rounding happens to give `t = tmin`, the triangle is hit.
 ///
 /// # The bound
 ///
-/// Let a triangle in object space have vertices `p0, p1, p2`, a hit barycentrics `u, v`, an instance object-to-world matrix
-/// `M` and world-to-object matrix `W` as the machine stores them. A ray that starts at the world point `x` is tested by the
-/// machine at `W x` in object space, so what counts is the distance of *that* point, as computed, from the triangle's plane.
-/// [`SurfacePoint::of_triangle`] bounds it by the sum of, all along the object-space normal `n` with |n| = 1:
+/// All lengths are in object space, `u = 2^-24` and `gamma(n)` the relative error of `n` roundings. A triangle has vertices `p_i`,
+/// edges `e1, e2`, the extent `l` (on each axis, the largest distance of two vertices), its largest element `L`, and the
+/// *computed* unit normal `n`. An instance has the matrices `M` (object to world) and `W` (world to object) as the program sees
+/// them; `x` is the point in world space; `|.|` goes by element. We ask for a *height* `h` above the point, along `n`, such that
+/// a ray which starts there and leaves to that side is not seen to meet the triangle. It is enough, as the sum of:
 ///
-/// 1. *interpolation*: `(1 - u - v) p0 + u p1 + v p2` is computed with at most 5 roundings on a term and 2 in `1 - u - v`,
-///    which is a combination of the vertices with weights that sum to 1 but for those 2: at most
-///    `gamma(5) (|b0 p0| + |b1 p1| + |b2 p2|) + 2 u |p0|`. The hit's own `u` and `v` may be off by any amount: they still
-///    name a point of the plane;
-/// 2. *residual*: how far `W (M p)`, both as computed here, is from `p`. It is evaluated, not bounded, so it covers whatever
-///    the machine did to invert the matrix: `|n . (W M p - p)|`;
-/// 3. *the machine's own rounding* when it maps the origin, which may differ from ours in order and contraction, twice for
-///    the evaluation in 2: `2 gamma(4) (|W| |x| + |w|)`, and the rounding of `x` itself when the offset is added:
-///    `2 u |W| |x|`;
-/// 4. *the intersection*: a test that translates vertices to the ray's origin and evaluates the plane from the differences
-///    (Woop, Benthin and Wald 2013) errs by roundings on lengths up to the longest edge: `gamma(16) (|e1| + |e2|)`.
+/// 1. *vertices*, `gamma(9) |n|.l + u |n|.|p|`: how far a vertex is above the computed point. The cross product is
+///    computed so that each element is good to `2 u` (Jeannerod, Louvet and Muller 2013, "Further Analysis of Kahan's
+///    Algorithm"; in `f64` where that is cheaper), `3 u` with the scaling to length 1. So even a needle's `n` is perpendicular
+///    to its computed edges but for `3 u |n|.|e|`, whatever angle it makes with the true normal, which is not needed. Edges
+///    are rounded (1), `b1 e1 + b2 e2` rounds twice: over all vertices, at most `4 |e1| + 5 |e2|` or the like. Adding `p0`
+///    rounds `p`. The hit's own barycentrics may be off by any amount: they name a point of the plane.
+/// 2. *the test*, `2 u |n|.l + 3 u L |n|_1`. After Woop, Benthin and Wald (2013, "Watertight Ray/Triangle Intersection")
+///    vertices are translated to the origin and sheared so that the ray is the `z` axis, which mixes axes: this is why the
+///    error of a plane `y = 0` is one of distances *within* the plane. From distances `a` and slopes `s <= 1`, a vertex gets
+///    `z = a_z` within `u |a_z|` and `x = a_x - s z` within `u (2 |a_x| + 2 s |z|)`, and `u s |z|` more since `s` is rounded. On the
+///    CPU all else is exact (`triangle.rs` of the kernel), so there are weights `w >= 0` of sum 1 with
+///    `sum w a = z s + E`, where `|E|` is `2 u l + 3 u L` at most: the hit is on the ray but for `E`. Its height is negative
+///    and the ray rises, so `z < 0` where `h > |n|.|E|`, for grazing rays as for others.
+/// 3. *direction*, `gamma(10) |n|.|W| |M| l`. The side is chosen by the computed world normal and direction: 7 roundings
+///    on a term of `n.W d`; the machine's direction in object space has up to 3. So a grazing ray may dip, by that much of
+///    `|n|.|W| |d|` for each unit of `t`. While it is over the triangle it covers `l` at most, in world space `|M| l`.
+/// 4. *the way to the world*: the residual `|n.(W x - p)|` with `x = M p`, both as computed here, whatever the machine did
+///    to invert the matrix. It is evaluated, not bounded. The evaluation rounds 3 times on a term of `W x`, and as a whole,
+///    by `u |p|`, when the translation `w` is added, which nearly cancels.
+/// 5. *the way back*, `gamma(3) |n|.(|W| |x| + |w|)`, the machine's own rounding when it maps the origin; and `u |n|.|W| |x|`
+///    for the rounding of `x` when the offset is added: far from 0 the offset is not lost, but as large as it takes.
 ///
-/// A plane distance `d` in object space is `d / |W^T n|` in world space, exactly, so the sum divided by that length is
-/// [`SurfacePoint::error`]. A ray whose origin is moved by it to the side it leaves to starts on that side as the machine
-/// sees it. The constants of OptiX's own triangle test are not published; that its hits respect the same bound is measured,
-/// not proven.
+/// Where OptiX walks several instances it applies one after the other, and so are the program's matrices composed, in `f32`.
+/// Elements of `|W|`, `|M|` and `|w|` are then sums of magnitudes, times the number of levels. The CPU does both in `f64`.
+///
+/// A height `h` is a distance `h / |W^T n|` in world space, where `W^T n` is good to `gamma(4) |n|.|W|`. The ratio
+/// `|n|.|W| / |W^T n|` is 1 to 3 for rotation and scale, and large only where shear makes the normal a small difference.
+///
+/// Of 21 roundings on `l` 22 are taken; that and factors of `1 + gamma(16)` cover products of errors and the evaluation of
+/// the bound itself. All is proven for the CPU where nothing over- or underflows: lengths and coordinates from `2^-60` to
+/// `2^60` in either space, and an absolute term for denormal numbers. The arithmetic of OptiX is not published. That
+/// 5 holds for it, and 2 and 3 with [`TEST`] in place of 3, is measured, by a search for the worst case
+/// (docs/measurements.md).
+///
+/// The terms are those of Pharr, Jakob and Humphreys ("Physically Based Rendering", 6.8), with the rounding of the test and the
+/// transforms added. NVIDIA's Self Intersection Avoidance (OptiX Toolkit) has 1, 2, 4 and 5, with smaller constants. An offset that
+/// depends on the position alone (Wächter and Binder 2019, Ray Tracing Gems, chapter 6) can't cover 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     /// The point, in world space.
@@ -46,13 +87,15 @@ pub struct SurfacePoint {
     pub normal: Vec3,
     /// Bound of the distance from the surface along the normal, in world units.
     pub error: f32,
+    /// What is added to `error` for a ray that comes from elsewhere, for each unit that it is long on its longest axis.
+    pub error_per_length: f32,
 }
 
 impl SurfacePoint {
-    /// A point whose error the caller knows: for custom primitives.
+    /// A point whose error the caller knows. Seen from afar it counts as one whose transform rotates and scales.
     #[inline(always)]
     pub fn new(position: Vec3, normal: Vec3, error: f32) -> Self {
-        Self { position, normal, error }
+        Self { position, normal, error, error_per_length: 3.0 * gamma(20) }
     }
 
     /// The point at `barycentrics` of a triangle given in object space; see the type for the bound.
@@ -63,22 +106,24 @@ impl SurfacePoint {
         object_to_world: &Transform,
         world_to_object: &Transform,
     ) -> Self {
-        let (b1, b2) = (barycentrics.x, barycentrics.y);
-        let b0 = 1.0 - b1 - b2;
         let (e1, e2) = (p1 - p0, p2 - p0);
-        let (t0, t1, t2) = (p0 * b0, p1 * b1, p2 * b2);
-        let object = t0 + t1 + t2;
-        let n = unit(e1.cross(e2));
+        let extents = e1.abs().max(e2.abs()).max((e1 - e2).abs());
+        let extent = extents.max_element();
+        let object = p0 + (e1 * barycentrics.x + e2 * barycentrics.y);
+        // By a power of two, which is exact, so that no product over- or underflows.
+        let scale = reciprocal_power(extent);
+        let normal = cross(e1 * scale, e2 * scale).normalize();
 
-        let interpolation = (t0.abs() + t1.abs() + t2.abs()) * gamma(5) + p0.abs() * (2.0 * U);
-        let intersection = (e1.abs() + e2.abs()) * gamma(16);
-        Self::of_object(object, n, interpolation + intersection, object_to_world, world_to_object)
+        let error = extents * gamma(22) + object.abs() * (2.0 * U) + (extent * gamma(TEST) + TINY);
+        Self::of_object(object, normal, error, object_to_world, world_to_object)
     }
 
     /// A point given in object space with unit normal `normal`: for custom primitives in instances.
     ///
-    /// `error` bounds, per object-space axis, how far `point` is off the surface as the intersection program sees it (terms
-    /// 1 and 4 of the bound); the terms of the transforms are added here.
+    /// `error` bounds, on each object-space axis, what the intersection program sees of the surface near `point`: how far
+    /// its own arithmetic puts it off for rays that start there, of any direction, and how far `point` itself is off (terms
+    /// 1 and 2 of the bound). Of a surface with flat parts it is at least `gamma(10)` times their extent, which covers the
+    /// rounding of directions (term 3); of one that curves away there is no such term. What transforms add is added here.
     #[inline(always)]
     pub fn of_object(
         point: Vec3,
@@ -89,24 +134,28 @@ impl SurfacePoint {
     ) -> Self {
         let position = object_to_world.point(point);
         let residual = normal.dot(world_to_object.point(position) - point).abs();
-        let mapping = absolute(world_to_object, position.abs()) * (2.0 * gamma(4) + 2.0 * U);
-        let object_error = (error + mapping).dot(normal.abs()) + residual;
+
+        // |n|.|W| and |n|.|w|. The error goes to the world and back by magnitudes: that is term 3, and at least |n|.error.
+        let (across, translation) = magnitudes_along(world_to_object, normal.abs());
+        let world = magnitudes(object_to_world, error) + position.abs() * gamma(7);
+        let height = across.dot(world) + translation * gamma(3) + residual;
 
         let world_normal = world_to_object.normal(normal);
         let per_length = world_normal.length().recip();
+        let error_per_length = (across.x + across.y + across.z) * per_length * gamma(20);
         Self {
             position,
             normal: world_normal * per_length,
-            // The sums above are of positive terms, each with a few roundings itself.
-            error: object_error * per_length * (1.0 + gamma(16)),
+            // The sums above are of positive terms, each with a few roundings itself; the normal has those of its own.
+            error: height * per_length * (1.0 + gamma(16) + error_per_length),
+            error_per_length,
         }
     }
 
     /// Where a ray in `direction` starts: the point moved off the surface, to the side that `direction` leads to.
     #[inline(always)]
     pub fn origin(&self, direction: Vec3) -> Vec3 {
-        let side = self.error.copysign(self.normal.dot(direction));
-        self.position + self.normal * side
+        self.moved(direction, self.error)
     }
 
     /// A ray from here in `direction`.
@@ -116,27 +165,67 @@ impl SurfacePoint {
     }
 
     /// A ray from here to another surface's point, which ends (`t` = 1) just before that surface: for shadow rays.
+    ///
+    /// The other surface sees the ray's origin from afar. Its test, and the transform to its space, then round by the
+    /// ray's length `d` and not by the surface's extent: on a term of `|n|.|W| |d|` 5 times in the test, 4 and 4 where origin and
+    /// direction are mapped, and 3 in the direction itself, in `t` and in the end. So the end is `gamma(16)` of that farther off.
     #[inline(always)]
     pub fn ray_to(&self, target: &SurfacePoint) -> Ray {
-        let direction = target.position - self.position;
-        let origin = self.origin(direction);
-        Ray::new(origin, target.origin(-direction) - origin).range(0.0, 1.0)
+        let way = target.position - self.position;
+        let length = way.abs().max_element();
+        let end = target.moved(-way, target.error + target.error_per_length * length);
+        let origin = self.origin(end - self.position);
+        Ray::new(origin, end - origin).range(0.0, 1.0)
+    }
+
+    /// The point moved off the surface by `distance`, to the side that `direction` leads to.
+    #[inline(always)]
+    fn moved(&self, direction: Vec3, distance: f32) -> Vec3 {
+        self.position + self.normal * distance.copysign(self.normal.dot(direction))
     }
 }
 
-/// `v` with length 1, also where its square would underflow or overflow.
+/// A power of two from the exponent alone: `2^-e` for `length` from `2^e` to `2^(e+1)`.
 #[inline(always)]
-fn unit(v: Vec3) -> Vec3 {
-    // By a power of two, which is exact, from the exponent alone: 2^-e for a largest element from 2^e to 2^(e+1).
-    let exponent = v.abs().max_element().to_bits() & 0x7f80_0000;
-    let scale = f32::from_bits(0x7f00_0000u32.saturating_sub(exponent).max(0x0080_0000));
-    (v * scale).normalize()
+fn reciprocal_power(length: f32) -> f32 {
+    let exponent = length.to_bits() & 0x7f80_0000;
+    f32::from_bits(0x7f00_0000u32.saturating_sub(exponent).max(0x0080_0000))
 }
 
-/// `|A| p + |a|` for the affine map `A, a`.
+/// The cross product, each element good to 2 u.
 #[inline(always)]
-fn absolute(map: &Transform, p: Vec3) -> Vec3 {
-    let row = |[x, y, z, w]: [f32; 4]| x.abs() * p.x + y.abs() * p.y + z.abs() * p.z + w.abs();
-    let [x, y, z] = map.rows();
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    let difference = difference_of_products;
+    Vec3::new(difference(a.y, b.z, a.z, b.y), difference(a.z, b.x, a.x, b.z), difference(a.x, b.y, a.y, b.x))
+}
+
+/// `a b - c d`, by Kahan's algorithm.
+#[cfg(target_arch = "nvptx64")]
+#[inline(always)]
+fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
+    let cd = c * d;
+    a.mul_add(b, -cd) + (-c).mul_add(d, cd)
+}
+
+/// `a b - c d`, by products that are exact in `f64`: processors have that at hand, but not always a fused multiply-add.
+#[cfg(not(target_arch = "nvptx64"))]
+#[inline(always)]
+fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
+    (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32
+}
+
+/// `|A| v` for the affine map `A, a`, and `v >= 0`.
+#[inline(always)]
+fn magnitudes(map: &Transform, v: Vec3) -> Vec3 {
+    let row = |[x, y, z, _]: [f32; 4]| x * v.x + y * v.y + z * v.z;
+    let [x, y, z] = map.sizes();
     Vec3::new(row(x), row(y), row(z))
+}
+
+/// `|n|^T |A|` and `|n|.|a|` for the affine map `A, a`, and `|n|`.
+#[inline(always)]
+fn magnitudes_along(map: &Transform, n: Vec3) -> (Vec3, f32) {
+    let [x, y, z] = map.sizes();
+    let column = |i: usize| x[i] * n.x + y[i] * n.y + z[i] * n.z;
+    (Vec3::new(column(0), column(1), column(2)), column(3))
 }

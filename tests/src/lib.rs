@@ -3,6 +3,7 @@
 pub mod devices;
 pub mod meshes;
 pub mod probe;
+pub mod spawn;
 
 /// The README's example, which is to compile and run.
 #[cfg(doctest)]

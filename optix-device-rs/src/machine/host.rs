@@ -6,6 +6,7 @@ use crate::exception::MAX_DETAILS;
 use crate::host::end::{self, End};
 use crate::host::{CallableCall, ExceptionState, Frame};
 use crate::params::LaunchParams;
+use crate::program::Transform;
 use crate::words::{MAX_PAYLOAD_WORDS, WordBuffer, Words, part, part_mut};
 use core::any::TypeId;
 use core::cell::Cell;
@@ -334,15 +335,15 @@ impl Cx {
     pub fn triangle_vertices(&self) -> [Vec3; 3] {
         self.frame().executor.triangle_vertices()
     }
-    /// Three rows of the object-to-world matrix.
+    /// The object-to-world transform, composed in `f64` and rounded once.
     #[inline(always)]
-    pub fn object_to_world(&self) -> [[f32; 4]; 3] {
-        self.frame().executor.object_to_world()
+    pub fn object_to_world(&self) -> Transform {
+        Transform::from_rows(self.frame().executor.object_to_world())
     }
-    /// Three rows of the world-to-object matrix.
+    /// The world-to-object transform, composed in `f64` and rounded once.
     #[inline(always)]
-    pub fn world_to_object(&self) -> [[f32; 4]; 3] {
-        self.frame().executor.world_to_object()
+    pub fn world_to_object(&self) -> Transform {
+        Transform::from_rows(self.frame().executor.world_to_object())
     }
     #[inline(always)]
     pub fn report(&self, t: f32, kind: u32, count: usize, attributes: &WordBuffer) -> bool {

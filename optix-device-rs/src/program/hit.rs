@@ -55,12 +55,12 @@ macro_rules! primitive_queries {
             /// From object to world space.
             #[inline(always)]
             pub fn object_to_world(&self) -> Transform {
-                Transform::from_rows(self.cx.object_to_world())
+                self.cx.object_to_world()
             }
             /// From world to object space.
             #[inline(always)]
             pub fn world_to_object(&self) -> Transform {
-                Transform::from_rows(self.cx.world_to_object())
+                self.cx.world_to_object()
             }
             /// A point of object space in world space.
             #[inline(always)]

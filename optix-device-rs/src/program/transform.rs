@@ -6,11 +6,37 @@ use glam::{Mat3, Vec3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     rows: [[f32; 4]; 3],
+    /// Element by element, what the roundings of applying the map are proportional to: the magnitudes of `rows`, or more
+    /// where the map was composed in `f32`. See [`SurfacePoint`](crate::spawn::SurfacePoint).
+    sizes: [[f32; 4]; 3],
 }
 
 impl Transform {
+    #[inline(always)]
     pub(crate) fn from_rows(rows: [[f32; 4]; 3]) -> Self {
-        Self { rows }
+        Self { rows, sizes: rows.map(|row| row.map(f32::abs)) }
+    }
+
+    /// The map that applies `inner` first and `self` after it, composed in `f32`.
+    #[cfg(any(target_arch = "nvptx64", test))]
+    #[inline(always)]
+    pub(crate) fn after(&self, inner: &Self) -> Self {
+        Self { rows: concatenate(self.rows, inner.rows), sizes: concatenate(self.sizes, inner.sizes) }
+    }
+
+    /// Composed of `levels` maps, by [`Transform::after`]. A map of one level rounds three times on a term, its translation
+    /// included; composing rounds four times more on each of both for every further level. So where a bound counts `n >= 7`
+    /// roundings of terms and `n' >= 3` of translations for one level, `levels * n` and `(3 * levels - 2) * n'` cover all.
+    #[cfg(any(target_arch = "nvptx64", test))]
+    #[inline(always)]
+    pub(crate) fn of_levels(self, levels: u32) -> Self {
+        let (terms, translation) = (levels as f32, (3 * levels - 2) as f32);
+        Self { sizes: self.sizes.map(|[x, y, z, w]| [x * terms, y * terms, z * terms, w * translation]), ..self }
+    }
+
+    #[inline(always)]
+    pub(crate) fn sizes(&self) -> [[f32; 4]; 3] {
+        self.sizes
     }
 
     /// Three rows of four, row-major, translation in the last column: OptiX's order.
@@ -54,4 +80,16 @@ impl Transform {
         let [x, y, z] = self.rows;
         Mat3::from_cols_array(&[x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]])
     }
+}
+
+/// `a` after `b`, both affine.
+#[cfg(any(target_arch = "nvptx64", test))]
+#[inline(always)]
+fn concatenate(a: [[f32; 4]; 3], b: [[f32; 4]; 3]) -> [[f32; 4]; 3] {
+    a.map(|row| {
+        core::array::from_fn(|column| {
+            let linear = row[0] * b[0][column] + row[1] * b[1][column] + row[2] * b[2][column];
+            if column == 3 { linear + row[3] } else { linear }
+        })
+    })
 }

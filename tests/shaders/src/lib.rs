@@ -4,6 +4,7 @@
 pub mod callables;
 pub mod queries;
 pub mod reports;
+pub mod spawn;
 
 use optix_device_rs::prelude::*;
 use path_tracer_shaders::ball::{self, Ball, BallHit};

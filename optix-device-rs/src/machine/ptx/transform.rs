@@ -1,6 +1,7 @@
 //! The transforms between a primitive and the world, and instances by handle (guide 13.11, 13.12).
 
 use super::Cx;
+use crate::program::Transform;
 use core::arch::asm;
 
 impl Cx {
@@ -77,53 +78,46 @@ impl Cx {
         unsafe { rows(get_of!("_optix_get_instance_inverse_transform_from_handle", reg64 handle, reg64 as u64)) }
     }
 
-    /// Three rows of the object-to-world matrix: the product of the transform list. Instances are the only transforms
-    /// of a static scene.
+    /// The object-to-world transform: the product of the transform list. Instances are the only transforms of a static
+    /// scene.
     #[inline(always)]
-    pub fn object_to_world(&self) -> [[f32; 4]; 3] {
+    pub fn object_to_world(&self) -> Transform {
         // SAFETY: the product asks for indices inside the list, whose handles are of instances. Index 0 is nearest the
         // root, so its transform is applied last.
-        self.product(|i| unsafe { self.instance_transform_from_handle(self.transform_list_handle(i)) }, concatenate)
+        let matrix = |i| unsafe { self.instance_transform_from_handle(self.transform_list_handle(i)) };
+        self.product(matrix, |product, next| product.after(&next))
     }
 
-    /// Three rows of the world-to-object matrix.
+    /// The world-to-object transform.
     #[inline(always)]
-    pub fn world_to_object(&self) -> [[f32; 4]; 3] {
+    pub fn world_to_object(&self) -> Transform {
         // SAFETY: as above. The inverse of index 0 is applied first.
         let matrix = |i| unsafe { self.instance_inverse_transform_from_handle(self.transform_list_handle(i)) };
-        self.product(matrix, |product, next| concatenate(next, product))
+        self.product(matrix, |product, next| next.after(&product))
     }
 
     #[inline(always)]
     fn product(
         &self,
         matrix: impl Fn(u32) -> [[f32; 4]; 3],
-        and: impl Fn([[f32; 4]; 3], [[f32; 4]; 3]) -> [[f32; 4]; 3],
-    ) -> [[f32; 4]; 3] {
+        and: impl Fn(Transform, Transform) -> Transform,
+    ) -> Transform {
         let size = self.transform_list_size();
         if size == 0 {
-            return [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+            return Transform::from_rows([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]);
         }
         // Of most hits the list is one instance, whose matrix is the product.
-        let mut product = matrix(0);
+        let mut product = Transform::from_rows(matrix(0));
+        if size == 1 {
+            return product;
+        }
         let mut i = 1;
         while i < size {
-            product = and(product, matrix(i));
+            product = and(product, Transform::from_rows(matrix(i)));
             i += 1;
         }
-        product
+        product.of_levels(size)
     }
-}
-
-/// `a` after `b`, both affine.
-#[inline(always)]
-fn concatenate(a: [[f32; 4]; 3], b: [[f32; 4]; 3]) -> [[f32; 4]; 3] {
-    a.map(|row| {
-        core::array::from_fn(|column| {
-            let linear = row[0] * b[0][column] + row[1] * b[1][column] + row[2] * b[2][column];
-            if column == 3 { linear + row[3] } else { linear }
-        })
-    })
 }
 
 /// A matrix that a query returned.
