@@ -207,9 +207,9 @@ pub enum Family {
     Any,
     /// Up to a million times its size away.
     Far,
-    /// Of a size from `2^20` to `2^58`.
+    /// From `2^20` to the largest that the machine can do.
     Huge,
-    /// Of a size from `2^-58` to `2^-20`.
+    /// From the smallest that the machine can do to `2^-20`.
     Tiny,
     /// Up to `10^7` times as long as it is high.
     Needle,
@@ -220,8 +220,8 @@ pub const FAMILIES: [Family; 7] =
     [Family::AxisAligned, Family::Tilted, Family::Any, Family::Far, Family::Huge, Family::Tiny, Family::Needle];
 
 impl Family {
-    /// One of the family.
-    pub fn triangle(self, dice: &mut Dice) -> Triangle {
+    /// One of the family, for a machine that can do triangles of sizes in `2^range`.
+    pub fn triangle(self, range: [i32; 2], dice: &mut Dice) -> Triangle {
         match self {
             Self::AxisAligned | Self::Tilted => {
                 let height = dice.pick(&[0.0, 1e-3, 0.1, 1.0, -1.0, 7.3, -40.0, 1e3]);
@@ -250,15 +250,18 @@ impl Family {
                 let at = dice.sphere() * (size * away);
                 [(); 3].map(|()| at + dice.cube() * size)
             }
-            Self::Huge | Self::Tiny => {
-                let exponents = if self == Self::Huge { (20.0, 54.0) } else { (-54.0, -20.0) };
-                let scale = dice.power(exponents.0, exponents.1);
+            Self::Huge | Self::Tiny => loop {
+                let [least, most] = range.map(|e| e as f32);
+                let scale = if self == Self::Huge { dice.power(20.0, most) } else { dice.power(least, -20.0) };
                 let of = dice.pick(&[Self::AxisAligned, Self::Any, Self::Far]);
-                let triangle = of.triangle(dice);
+                let triangle = of.triangle(range, dice);
                 // So that the size is what counts.
                 let size = triangle.iter().fold(0.0f32, |s, p| s.max(p.abs().max_element()));
-                triangle.map(|p| p / size * scale)
-            }
+                let scaled = triangle.map(|p| p / size * scale);
+                if extent(&scaled) > least.exp2() {
+                    return scaled;
+                }
+            },
             Self::Needle => {
                 let (at, along) = (dice.cube() * dice.power(-4.0, 4.0), dice.sphere() * dice.power(-4.0, 4.0));
                 let high = along.length() * dice.power(-23.0, -2.0);
@@ -269,6 +272,17 @@ impl Family {
             }
         }
     }
+}
+
+/// The largest distance of two vertices on an axis.
+pub fn extent([p0, p1, p2]: &Triangle) -> f32 {
+    (p1 - p0).abs().max((p2 - p0).abs()).max((p2 - p1).abs()).max_element()
+}
+
+/// Sizes of triangles, as powers of two, at which a machine's test keeps the bound: beyond, products of coordinates over- and
+/// underflow, and on OptiX those are products of three.
+pub fn range(device: &Device) -> [i32; 2] {
+    if device.description().contains("OptiX") { [-28, 38] } else { [-58, 56] }
 }
 
 /// A transform of any kind: moves, scales, by axes too, shears, mirrors.

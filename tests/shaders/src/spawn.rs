@@ -119,8 +119,7 @@ fn point_of(rg: &RayGen<Spawn>, start: &Start) -> (MetAtCaller, SurfacePoint) {
 }
 
 /// A direction of any kind: into all of the sphere, grazing, nearly or exactly along an axis, in the plane as far as that can be.
-/// Away from `normal`'s side only if `both`.
-fn leaving(rng: &mut Pcg32, normal: Vec3, both: bool) -> Vec3 {
+fn leaving(rng: &mut Pcg32, normal: Vec3) -> Vec3 {
     let kind = rng.next_u32();
     let any = crate::sphere(rng.next_vec2());
     let tangent = normal.cross(any);
@@ -134,8 +133,15 @@ fn leaving(rng: &mut Pcg32, normal: Vec3, both: bool) -> Vec3 {
         _ => tangent,
     };
     // Any length.
-    let direction = direction * f32::from_bits((107 + kind / 4 % 41) << 23);
-    if !both && direction.dot(normal) < 0.0 { -direction } else { direction }
+    direction * f32::from_bits((107 + kind / 4 % 41) << 23)
+}
+
+/// The ray that leaves in a direction. Into a ball or a box a ray meets it again, rightly, so from these it leaves on the outside; and
+/// that is seen by where it starts, since a grazing direction's side is a matter of rounding.
+fn outward(point: &SurfacePoint, kind: u32, direction: Vec3) -> Ray {
+    let ray = point.ray(direction);
+    let inside = kind < 128 && (ray.origin - point.position).dot(point.normal) < 0.0;
+    if inside { point.ray(-direction) } else { ray }
 }
 
 /// Sends rays from a hit to both sides in all directions; counts those that meet the primitive again.
@@ -150,12 +156,11 @@ pub fn leave(rg: &RayGen<Spawn>) {
         let mut rng = Pcg32::hashed(start.seed as u64, 2);
         let mut i = 0;
         while i < frame.rays() {
-            // Into a ball or a box a ray meets it again, rightly.
-            let direction = leaving(&mut rng, point.normal, first.kind >= 128);
+            let ray = outward(&point, first.kind, leaving(&mut rng, point.normal));
             departure.traced += 1;
-            if met(rg, point.ray(direction), start.primitive).met {
+            if met(rg, ray, start.primitive).met {
                 departure.own += 1;
-                departure.direction = direction.to_array();
+                departure.direction = ray.direction.to_array();
             }
             i += 1;
         }
@@ -177,12 +182,11 @@ pub fn margin(rg: &RayGen<Spawn>) {
         departure.margin = 0.0;
         let mut left = frame.rays().max(1);
         while left > 0 {
-            let direction = if frame.rays() == 0 {
-                let given = Vec3::from_array(start.leaving);
-                if first.kind < 128 && given.dot(point.normal) < 0.0 { -given } else { given }
-            } else {
-                leaving(&mut rng, point.normal, first.kind >= 128)
+            let direction = match frame.rays() {
+                0 => Vec3::from_array(start.leaving),
+                _ => leaving(&mut rng, point.normal),
             };
+            let direction = outward(&point, first.kind, direction).direction;
             let fails = |share: f32| {
                 let nearer = SurfacePoint { error: point.error * share, ..point };
                 met(rg, nearer.ray(direction), start.primitive).met
@@ -256,7 +260,8 @@ pub fn between(rg: &RayGen<Spawn>) {
     if first.met && second.met {
         let way = b.position - a.position;
         let both = a.error + b.error + (a.error_per_length + b.error_per_length) * way.abs().max_element();
-        if a.normal.dot(way).abs().min(b.normal.dot(way).abs()) > 2.0 * both {
+        let apart = a.normal.dot(way).abs().min(b.normal.dot(way).abs());
+        if apart > 2.0 * both {
             for (ray, way) in [(a.ray_to(&b), way), (b.ray_to(&a), -way)] {
                 departure.traced += 1;
                 let end = met(rg, ray, from.primitive).met | met(rg, ray, to.primitive).met;
@@ -264,7 +269,8 @@ pub fn between(rg: &RayGen<Spawn>) {
                 if end {
                     departure.direction = way.to_array();
                 }
-                departure.lost += (from.other != NONE && !met(rg, ray, from.other).met) as u32;
+                // The offsets, which may lie askew in object space, don't take the ray past what is between.
+                departure.lost += (apart > 1e5 * both && !met(rg, ray, from.other).met) as u32;
             }
         }
     }
