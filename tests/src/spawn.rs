@@ -3,7 +3,7 @@
 use glam::{Affine3A, DAffine3, DVec3, Mat3, Quat, Vec3};
 use optix_device_rs::pipeline::HasRayGen;
 use optix_device_rs::rng::Pcg32;
-use optix_host::{Aabb, Boxes, Device, Pipeline, Result, Scene, TriangleMesh, World};
+use optix_host::{Aabb, BackendKind, Boxes, Device, Pipeline, Result, Scene, TriangleMesh, World};
 use path_tracer::shaders::Ball;
 pub use probe_shaders::spawn::{Departure, Spawn, Start};
 use probe_shaders::spawn::{NONE, Sheet, Slab, SpawnFrameHost, between, leave, margin, neighbour};
@@ -282,7 +282,10 @@ pub fn extent([p0, p1, p2]: &Triangle) -> f32 {
 /// Sizes of triangles, as powers of two, at which a machine's test keeps the bound: beyond, products of coordinates over- and
 /// underflow, and on OptiX those are products of three.
 pub fn range(device: &Device) -> [i32; 2] {
-    if device.description().contains("OptiX") { [-28, 38] } else { [-58, 56] }
+    match device.kind() {
+        BackendKind::Cpu => [-58, 56],
+        BackendKind::Optix => [-28, 38],
+    }
 }
 
 /// A transform of any kind: moves, scales, by axes too, shears, mirrors.

@@ -6,7 +6,7 @@
 //! self_hit_search -- --nocapture` searches for two minutes on each machine; by default it is a few seconds.
 
 use glam::{Affine3A, Vec3};
-use optix_host::Device;
+use optix_host::{BackendKind, Device};
 use optix_tests::devices;
 use optix_tests::spawn::{
     Content, Dice, FAMILIES, Field, Island, Start, Triangle, approach, extent, level, start, step, weights,
@@ -238,7 +238,7 @@ fn bits(group: &Group) -> String {
 fn no_ray_is_found_that_breaks_the_bound() {
     let seconds = std::env::var("OPTIX_TEST_SEARCH").ok().and_then(|s| s.parse::<f64>().ok());
     for device in devices::all("no_ray_is_found_that_breaks_the_bound") {
-        let gpu = device.description().contains("OptiX");
+        let gpu = device.kind() == BackendKind::Optix;
         let shape = match seconds {
             Some(_) if gpu => (48, 96),
             _ => (8, 128),
