@@ -107,8 +107,8 @@ impl SurfacePoint {
         world_to_object: &Transform,
     ) -> Self {
         let (e1, e2) = (p1 - p0, p2 - p0);
-        let extents = e1.abs().max(e2.abs()).max((e1 - e2).abs());
-        let extent = extents.max_element();
+        let extents = larger(larger(e1.abs(), e2.abs()), (e1 - e2).abs());
+        let extent = extents.x.max(extents.y).max(extents.z);
         let object = p0 + (e1 * barycentrics.x + e2 * barycentrics.y);
         // By a power of two, which is exact, so that no product over- or underflows.
         let scale = reciprocal_power(extent);
@@ -136,8 +136,8 @@ impl SurfacePoint {
         let residual = normal.dot(world_to_object.point(position) - point).abs();
 
         // |n|.|W| and |n|.|w|. The error goes to the world and back by magnitudes: that is term 3, and at least |n|.error.
-        let (across, translation) = magnitudes_along(world_to_object, normal.abs());
-        let world = magnitudes(object_to_world, error) + position.abs() * gamma(7);
+        let (across, translation) = world_to_object.magnitudes_along(normal.abs());
+        let world = object_to_world.magnitudes(error) + position.abs() * gamma(7);
         let height = across.dot(world) + translation * gamma(3) + residual;
 
         let world_normal = world_to_object.normal(normal);
@@ -185,6 +185,12 @@ impl SurfacePoint {
     }
 }
 
+/// The larger of each element, in one instruction each.
+#[inline(always)]
+fn larger(a: Vec3, b: Vec3) -> Vec3 {
+    Vec3::new(a.x.max(b.x), a.y.max(b.y), a.z.max(b.z))
+}
+
 /// A power of two from the exponent alone: `2^-e` for `length` from `2^e` to `2^(e+1)`.
 #[inline(always)]
 fn reciprocal_power(length: f32) -> f32 {
@@ -212,20 +218,4 @@ fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
 #[inline(always)]
 fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
     (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32
-}
-
-/// `|A| v` for the affine map `A, a`, and `v >= 0`.
-#[inline(always)]
-fn magnitudes(map: &Transform, v: Vec3) -> Vec3 {
-    let row = |[x, y, z, _]: [f32; 4]| x * v.x + y * v.y + z * v.z;
-    let [x, y, z] = map.sizes();
-    Vec3::new(row(x), row(y), row(z))
-}
-
-/// `|n|^T |A|` and `|n|.|a|` for the affine map `A, a`, and `|n|`.
-#[inline(always)]
-fn magnitudes_along(map: &Transform, n: Vec3) -> (Vec3, f32) {
-    let [x, y, z] = map.sizes();
-    let column = |i: usize| x[i] * n.x + y[i] * n.y + z[i] * n.z;
-    (Vec3::new(column(0), column(1), column(2)), column(3))
 }

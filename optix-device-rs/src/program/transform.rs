@@ -9,34 +9,47 @@ pub struct Transform {
     /// Element by element, what the roundings of applying the map are proportional to: the magnitudes of `rows`, or more
     /// where the map was composed in `f32`. See [`SurfacePoint`](crate::spawn::SurfacePoint).
     sizes: [[f32; 4]; 3],
+    /// How many maps were composed in `f32`.
+    levels: u32,
 }
 
 impl Transform {
     #[inline(always)]
     pub(crate) fn from_rows(rows: [[f32; 4]; 3]) -> Self {
-        Self { rows, sizes: rows.map(|row| row.map(f32::abs)) }
+        Self { rows, sizes: rows.map(|row| row.map(f32::abs)), levels: 1 }
     }
 
     /// The map that applies `inner` first and `self` after it, composed in `f32`.
     #[cfg(any(target_arch = "nvptx64", test))]
     #[inline(always)]
     pub(crate) fn after(&self, inner: &Self) -> Self {
-        Self { rows: concatenate(self.rows, inner.rows), sizes: concatenate(self.sizes, inner.sizes) }
+        Self {
+            rows: concatenate(self.rows, inner.rows),
+            sizes: concatenate(self.sizes, inner.sizes),
+            levels: self.levels + inner.levels,
+        }
     }
 
-    /// Composed of `levels` maps, by [`Transform::after`]. A map of one level rounds three times on a term, its translation
-    /// included; composing rounds four times more on each of both for every further level. So where a bound counts `n >= 7`
-    /// roundings of terms and `n' >= 3` of translations for one level, `levels * n` and `(3 * levels - 2) * n'` cover all.
-    #[cfg(any(target_arch = "nvptx64", test))]
+    /// What the error of a vector `v >= 0` grows to, at most, when it is mapped.
     #[inline(always)]
-    pub(crate) fn of_levels(self, levels: u32) -> Self {
-        let (terms, translation) = (levels as f32, (3 * levels - 2) as f32);
-        Self { sizes: self.sizes.map(|[x, y, z, w]| [x * terms, y * terms, z * terms, w * translation]), ..self }
+    pub(crate) fn magnitudes(&self, v: Vec3) -> Vec3 {
+        let row = |[x, y, z, _]: [f32; 4]| x * v.x + y * v.y + z * v.z;
+        let [x, y, z] = self.sizes;
+        Vec3::new(row(x), row(y), row(z))
     }
 
+    /// What rounding the terms of a mapped point counts with along a normal with the magnitudes `n` of the space that the map
+    /// leads to, on each axis of the space that it leads from; and what rounding the translation counts with.
+    ///
+    /// One map rounds three times on a term, its translation included; composing two rounds four times more on each, and then
+    /// both round. So where a bound counts at least 7 roundings of terms and 3 of translations for one map, `levels`
+    /// and `3 levels - 2` times as many cover a composed one.
     #[inline(always)]
-    pub(crate) fn sizes(&self) -> [[f32; 4]; 3] {
-        self.sizes
+    pub(crate) fn magnitudes_along(&self, n: Vec3) -> (Vec3, f32) {
+        let [x, y, z] = self.sizes;
+        let column = |i: usize| x[i] * n.x + y[i] * n.y + z[i] * n.z;
+        let (terms, translation) = (self.levels as f32, (3 * self.levels - 2) as f32);
+        (Vec3::new(column(0), column(1), column(2)) * terms, column(3) * translation)
     }
 
     /// Three rows of four, row-major, translation in the last column: OptiX's order.

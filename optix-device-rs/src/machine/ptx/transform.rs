@@ -108,15 +108,12 @@ impl Cx {
         }
         // Of most hits the list is one instance, whose matrix is the product.
         let mut product = Transform::from_rows(matrix(0));
-        if size == 1 {
-            return product;
-        }
         let mut i = 1;
         while i < size {
             product = and(product, Transform::from_rows(matrix(i)));
             i += 1;
         }
-        product.of_levels(size)
+        product
     }
 }
 
