@@ -112,10 +112,13 @@ struct Transform {
         return make_float3(m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z,
                            m[2] * n.x + m[6] * n.y + m[10] * n.z);
     }
-    __forceinline__ __device__ float3 absolute(float3 p) const {
-        return make_float3(fabsf(m[0]) * p.x + fabsf(m[1]) * p.y + fabsf(m[2]) * p.z + fabsf(m[3]),
-                           fabsf(m[4]) * p.x + fabsf(m[5]) * p.y + fabsf(m[6]) * p.z + fabsf(m[7]),
-                           fabsf(m[8]) * p.x + fabsf(m[9]) * p.y + fabsf(m[10]) * p.z + fabsf(m[11]));
+    __forceinline__ __device__ float3 magnitudes(float3 v) const {
+        return make_float3(fabsf(m[0]) * v.x + fabsf(m[1]) * v.y + fabsf(m[2]) * v.z,
+                           fabsf(m[4]) * v.x + fabsf(m[5]) * v.y + fabsf(m[6]) * v.z,
+                           fabsf(m[8]) * v.x + fabsf(m[9]) * v.y + fabsf(m[10]) * v.z);
+    }
+    __forceinline__ __device__ float magnitude_along(float3 n, int i) const {
+        return fabsf(m[i]) * n.x + fabsf(m[4 + i]) * n.y + fabsf(m[8 + i]) * n.z;
     }
 };
 DEVICE Transform object_to_world() {
@@ -134,38 +137,59 @@ template <u32 n> struct Gamma {
     static constexpr float value = (float)((double)n / 16777216.0 / (1.0 - (double)n / 16777216.0)) * (1.0f + 2.0f * U);
 };
 
+DEVICE float difference_of_products(float a, float b, float c, float d) {
+    float cd = __fmul_rn(c, d);
+    return __fadd_rn(__fmaf_rn(a, b, -cd), __fmaf_rn(-c, d, cd));
+}
+
+// The bound is derived in optix-device-rs/src/spawn.rs. These scenes have one level of instances.
 struct SurfacePoint {
     float3 position, normal;
     float error;
+    float error_per_length = 3.0f * Gamma<20>::value;
 
     DEVICE SurfacePoint of_object(float3 point, float3 normal, float3 error, const Transform& to_world,
                                   const Transform& to_object) {
         float3 position = to_world.point(point);
         float residual = fabsf(dot(normal, to_object.point(position) - point));
-        constexpr float factor = 2.0f * Gamma<4>::value + 2.0f * U;
-        float3 mapping = to_object.absolute(abs(position)) * factor;
-        float object_error = dot(error + mapping, abs(normal)) + residual;
+        float3 n = abs(normal);
+        float3 across = make_float3(to_object.magnitude_along(n, 0), to_object.magnitude_along(n, 1),
+                                    to_object.magnitude_along(n, 2));
+        float translation = to_object.magnitude_along(n, 3);
+        float3 world = to_world.magnitudes(error) + abs(position) * Gamma<7>::value;
+        float height = dot(across, world) + translation * Gamma<3>::value + residual;
         float3 world_normal = to_object.normal(normal);
         float per_length = 1.0f / length(world_normal);
-        return {position, world_normal * per_length, object_error * per_length * (1.0f + Gamma<16>::value)};
+        float error_per_length = (across.x + across.y + across.z) * per_length * Gamma<20>::value;
+        return {position, world_normal * per_length, height * per_length * (1.0f + Gamma<16>::value + error_per_length),
+                error_per_length};
     }
     DEVICE SurfacePoint of_triangle_hit() {
         float3 p[3];
         optixGetTriangleVertexData(p);
         float2 b = optixGetTriangleBarycentrics();
-        float b0 = 1.0f - b.x - b.y;
         float3 e1 = p[1] - p[0], e2 = p[2] - p[0];
-        float3 t0 = p[0] * b0, t1 = p[1] * b.x, t2 = p[2] * b.y;
-        float3 object = t0 + t1 + t2;
-        float3 c = cross(e1, e2);
-        int exponent = __float_as_int(max_element(abs(c))) & 0x7f800000;
-        float3 n = normalize(c * __int_as_float(max(0x7f000000 - exponent, 0x00800000)));
-        float3 interpolation = (abs(t0) + abs(t1) + abs(t2)) * Gamma<5>::value + abs(p[0]) * (2.0f * U);
-        float3 intersection = (abs(e1) + abs(e2)) * Gamma<16>::value;
-        return of_object(object, n, interpolation + intersection, object_to_world(), world_to_object());
+        float3 extents = max(max(abs(e1), abs(e2)), abs(e1 - e2));
+        float extent = max_element(extents);
+        float3 object = p[0] + (e1 * b.x + e2 * b.y);
+        int exponent = __float_as_int(extent) & 0x7f800000;
+        float scale = __int_as_float(max(0x7f000000 - exponent, 0x00800000));
+        float3 s = e1 * scale, t = e2 * scale;
+        float3 n = normalize(make_float3(difference_of_products(s.y, t.z, s.z, t.y),
+                                         difference_of_products(s.z, t.x, s.x, t.z),
+                                         difference_of_products(s.x, t.y, s.y, t.x)));
+        float3 error = extents * Gamma<22>::value + abs(object) * (2.0f * U) +
+                       splat(extent * Gamma<8>::value + 16.0f * 1.17549435e-38f);
+        return of_object(object, n, error, object_to_world(), world_to_object());
     }
-    __forceinline__ __device__ float3 origin(float3 direction) const {
-        return position + normal * copysignf(error, dot(normal, direction));
+    __forceinline__ __device__ float3 moved(float3 direction, float distance) const {
+        return position + normal * copysignf(distance, dot(normal, direction));
+    }
+    __forceinline__ __device__ float3 origin(float3 direction) const { return moved(direction, error); }
+    // Where a ray to `target` ends.
+    __forceinline__ __device__ float3 end(const SurfacePoint& target) const {
+        float3 way = target.position - position;
+        return target.moved(-way, target.error + target.error_per_length * max_element(abs(way)));
     }
 };
 

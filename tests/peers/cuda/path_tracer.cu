@@ -109,11 +109,11 @@ DEVICE float3 direct(const SurfacePoint& point, float3 geometric, float3 normal,
     float distance2 = dot(d, d);
     float cos_light = -dot(area_light.normal, d), cos_surface = dot(normal, d);
     if (cos_light <= 0.0f || cos_surface <= 0.0f || dot(geometric, d) <= 0.0f) return splat(0.0f);
-    SurfacePoint end{to, area_light.normal, max_element(abs(to)) * Gamma<16>::value};
-    float3 origin = point.origin(d);
+    SurfacePoint light{to, area_light.normal, max_element(abs(to)) * Gamma<16>::value};
+    float3 end = point.end(light), origin = point.origin(end - point.position);
     float share = cos_light * cos_surface / (3.14159265f * distance2 * distance2);
     u32 visible = 0;
-    optixTrace(SHADOW, params.world, origin, end.origin(-d) - origin, 0.0f, 1.0f, 0.0f, 255,
+    optixTrace(SHADOW, params.world, origin, end - origin, 0.0f, 1.0f, 0.0f, 255,
                OPTIX_RAY_FLAG_TERMINATE_ON_FIRST_HIT | OPTIX_RAY_FLAG_DISABLE_CLOSESTHIT, 1, 2, 1, visible);
     shadow_rays = 1;
     if (!visible) return splat(0.0f);

@@ -136,12 +136,14 @@ fn leaving(rng: &mut Pcg32, normal: Vec3) -> Vec3 {
     direction * f32::from_bits((107 + kind / 4 % 41) << 23)
 }
 
-/// The ray that leaves in a direction. Into a ball or a box a ray meets it again, rightly, so from these it leaves on the outside; and
-/// that is seen by where it starts, since a grazing direction's side is a matter of rounding.
+/// The ray that leaves in a direction. Into a ball or a box a ray meets it again, rightly, so from these it leaves on the outside; a
+/// grazing direction may be on either side as rounding has it.
 fn outward(point: &SurfacePoint, kind: u32, direction: Vec3) -> Ray {
-    let ray = point.ray(direction);
-    let inside = kind < 128 && (ray.origin - point.position).dot(point.normal) < 0.0;
-    if inside { point.ray(-direction) } else { ray }
+    if kind >= 128 {
+        return point.ray(direction);
+    }
+    let direction = if direction.dot(point.normal) < 0.0 { -direction } else { direction };
+    Ray::new(point.position + point.normal * point.error, direction)
 }
 
 /// Sends rays from a hit to both sides in all directions; counts those that meet the primitive again.
@@ -186,10 +188,9 @@ pub fn margin(rg: &RayGen<Spawn>) {
                 0 => Vec3::from_array(start.leaving),
                 _ => leaving(&mut rng, point.normal),
             };
-            let direction = outward(&point, first.kind, direction).direction;
             let fails = |share: f32| {
                 let nearer = SurfacePoint { error: point.error * share, ..point };
-                met(rg, nearer.ray(direction), start.primitive).met
+                met(rg, outward(&nearer, first.kind, direction), start.primitive).met
             };
             // Whether a ray is seen to meet the surface is not monotonous in the offset: from above, in steps of 2^-1/4,
             // and then between the last two.

@@ -117,7 +117,7 @@ fn ground(hit: &ClosestHit<Foliage, Triangles>, record: &Ground) -> SeenFromClos
 }
 
 fn surface(hit: &ClosestHit<Foliage, Triangles>, colour: Vec3) -> SeenFromClosestHit {
-    let SurfacePoint { position, normal, error } = hit.surface_point();
+    let SurfacePoint { position, normal, error, .. } = hit.surface_point();
     let normal = if normal.dot(hit.world_ray_direction()) > 0.0 { -normal } else { normal };
     SeenFromClosestHit { position, normal, error, colour }
 }

@@ -73,7 +73,7 @@ fn camera(rg: &RayGen<Occlusion>) {
 /// Says where the surface is.
 #[closesthit]
 fn clay(hit: &ClosestHit<Occlusion, Triangles>) -> SurfaceFromClosestHit {
-    let SurfacePoint { position, normal, error } = hit.surface_point();
+    let SurfacePoint { position, normal, error, .. } = hit.surface_point();
     let normal = if normal.dot(hit.world_ray_direction()) > 0.0 { -normal } else { normal };
     SurfaceFromClosestHit { position, normal, error }
 }
