@@ -228,8 +228,8 @@ struct Spread {
 
 impl Spread {
     fn of(rays: u64) -> Self {
-        let fields = (rays / 10_000).isqrt().clamp(2, 64);
-        let starts = (rays / fields).isqrt().clamp(64, 1 << 14);
+        let fields = (rays / 10_000).isqrt().clamp(2, 16);
+        let starts = (rays / fields * 8).isqrt().clamp(64, 1 << 14);
         Self { fields, starts: starts as usize, rays: (rays / fields / starts).max(4) as u32 }
     }
 }
