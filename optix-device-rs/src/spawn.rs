@@ -15,9 +15,6 @@ pub const fn gamma(n: u32) -> f32 {
     (nu / (1.0 - nu)) as f32 * (1.0 + 2.0 * U)
 }
 
-/// Roundings of the machine's triangle test, in the largest extent of a triangle: term 2 of the bound.
-const TEST: u32 = if cfg!(target_arch = "nvptx64") { 8 } else { 3 };
-
 /// Absolute error per object-space axis that denormal numbers can add: far above the few units of `2^-149` that it takes, far
 /// below what scenes are made of.
 const TINY: f32 = f32::MIN_POSITIVE * 16.0;
@@ -70,15 +67,15 @@ const TINY: f32 = f32::MIN_POSITIVE * 16.0;
 /// A height `h` is a distance `h / |W^T n|` in world space, where `W^T n` is good to `gamma(4) |n|.|W|`. The ratio
 /// `|n|.|W| / |W^T n|` is 1 to 3 for rotation and scale, and large only where shear makes the normal a small difference.
 ///
-/// Of 21 roundings on `l` 22 are taken; that and factors of `1 + gamma(16)` cover products of errors and the evaluation of
-/// the bound itself. All is proven for the CPU where nothing over- or underflows: lengths and coordinates from `2^-60` to
-/// `2^60` in either space, and an absolute term for denormal numbers. The arithmetic of OptiX is not published. That
-/// 5 holds for it, and 2 and 3 with [`TEST`] in place of 3, is measured, by a search for the worst case
-/// (docs/measurements.md).
+/// Of 21 roundings on `l` 22 are taken, of 3 on `L` 4; that and factors of `1 + gamma(16)` cover products of errors and the
+/// evaluation of the bound itself. All is proven for the CPU where nothing over- or underflows: lengths and coordinates from
+/// `2^-60` to `2^60` in either space, and an absolute term for denormal numbers. The arithmetic of OptiX is not published. That
+/// 2, 3 and 5 hold for it too is measured, by a search for the worst case (docs/measurements.md), for triangles of `2^-28` to
+/// `2^38`: beyond, products of three coordinates leave the range of `f32`.
 ///
 /// The terms are those of Pharr, Jakob and Humphreys ("Physically Based Rendering", 6.8), with the rounding of the test and the
-/// transforms added. NVIDIA's Self Intersection Avoidance (OptiX Toolkit) has 1, 2, 4 and 5, with smaller constants. An offset that
-/// depends on the position alone (Wächter and Binder 2019, Ray Tracing Gems, chapter 6) can't cover 2.
+/// transforms added. NVIDIA's Self Intersection Avoidance (OptiX Toolkit) has 1, 2 and 5 with smaller constants, and the same
+/// `4 u L`. An offset that depends on the position alone (Wächter and Binder 2019, Ray Tracing Gems, chapter 6) can't cover 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     /// The point, in world space.
@@ -114,7 +111,7 @@ impl SurfacePoint {
         let scale = reciprocal_power(extent);
         let normal = cross(e1 * scale, e2 * scale).normalize();
 
-        let error = extents * gamma(22) + object.abs() * (2.0 * U) + (extent * gamma(TEST) + TINY);
+        let error = extents * gamma(22) + object.abs() * (2.0 * U) + (extent * gamma(4) + TINY);
         Self::of_object(object, normal, error, object_to_world, world_to_object)
     }
 

@@ -179,7 +179,7 @@ struct SurfacePoint {
                                          difference_of_products(s.z, t.x, s.x, t.z),
                                          difference_of_products(s.x, t.y, s.y, t.x)));
         float3 error = extents * Gamma<22>::value + abs(object) * (2.0f * U) +
-                       splat(extent * Gamma<8>::value + 16.0f * 1.17549435e-38f);
+                       splat(extent * Gamma<4>::value + 16.0f * 1.17549435e-38f);
         return of_object(object, n, error, object_to_world(), world_to_object());
     }
     __forceinline__ __device__ float3 moved(float3 direction, float distance) const {
