@@ -17,11 +17,13 @@
 mod calls;
 mod constants;
 mod flow;
+mod local;
 mod module;
 mod prototype;
 mod statement;
 
 pub use calls::{Call, Parts};
+pub use local::local_atomics;
 pub use module::{Function, Module, Variable, is_callable};
 pub use prototype::Prototype;
 pub use statement::{Instruction, Statement, operands};

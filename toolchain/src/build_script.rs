@@ -41,6 +41,9 @@ fn try_compile(shaders: &Shaders) -> Result<(), Error> {
             for (function, bytes) in ptx::local_memory(&text) {
                 println!("cargo::warning={function} keeps {bytes} bytes in local memory: {LOCAL_MEMORY}");
             }
+            for one in ptx::suspicious(&text) {
+                println!("cargo::warning=in {}, {one}", one.function);
+            }
             (name, text)
         }
         Err(error @ (Error::NoDeviceCompiler { .. } | Error::SwitchedOff)) => {

@@ -1,11 +1,14 @@
 //! Whether OptiX could load a PTX module, and what it keeps in memory.
 
 pub(crate) mod builtins;
+pub mod forbidden;
 pub(crate) mod ftz;
 
 use std::fmt;
 
 use optix_ptx::{Call, Function, Module};
+
+pub use forbidden::Forbidden;
 
 /// What give the addresses of callables.
 pub(crate) const DIRECT: &str = "_optix_call_direct_callable";
@@ -23,6 +26,8 @@ pub enum Problem {
     Pointers(Vec<String>),
     /// This function calls itself, perhaps by way of others, and OptiX's device functions.
     Recursion(String),
+    /// It has what OptiX forbids.
+    Forbidden(Vec<Forbidden>),
     /// It is no PTX.
     NotPtx,
 }
@@ -47,6 +52,12 @@ impl fmt::Display for Problem {
             Self::Recursion(name) => {
                 write!(f, "{name} calls itself and device functions, which OptiX does not allow together; use a loop")
             }
+            Self::Forbidden(found) => {
+                for (i, one) in found.iter().enumerate() {
+                    write!(f, "{}in {}, {one}", if i == 0 { "" } else { "; " }, one.function)?;
+                }
+                Ok(())
+            }
             Self::NotPtx => f.write_str("this is no PTX; `.version` or `.target` is missing"),
         }
     }
@@ -67,6 +78,7 @@ pub fn check(module: &Module<'_>) -> Result<(), Problem> {
     let unresolved = functions.chain(variables).filter(|name| !provided(name));
     let unresolved: Vec<_> = unresolved.map(str::to_string).collect();
     let pointers: Vec<_> = module.defined().filter(|f| calls_pointers(f)).map(|f| f.name.to_string()).collect();
+    let forbidden: Vec<_> = forbidden::forbidden(module).into_iter().filter(|one| one.why.is_error()).collect();
     let recursive = module.defined().find(|function| is_recursive(module, function));
     if module.version.is_empty() || module.target.is_empty() {
         Err(Problem::NotPtx)
@@ -78,9 +90,23 @@ pub fn check(module: &Module<'_>) -> Result<(), Problem> {
         Err(Problem::Pointers(pointers))
     } else if let Some(function) = recursive {
         Err(Problem::Recursion(function.name.to_string()))
+    } else if !forbidden.is_empty() {
+        Err(Problem::Forbidden(forbidden))
     } else {
         Ok(())
     }
+}
+
+/// What in a module works, but not as it is written, each with the function that it is in.
+///
+/// ```
+/// let text = ".visible .entry __miss__x()\n{\n\tmov.u32 %r1, %tid.x;\n}\n";
+/// assert_eq!(optix_toolchain::ptx::suspicious(text)[0].what, "%tid.x");
+/// ```
+pub fn suspicious(text: &str) -> Vec<Forbidden> {
+    let text = optix_ptx::plain(text);
+    let found = forbidden::forbidden(&Module::read(&text));
+    found.into_iter().filter(|one| !one.why.is_error()).collect()
 }
 
 /// The entries and functions that keep something in local memory, with the bytes: memory where registers should be.

@@ -42,6 +42,9 @@ fn build(path: &Path, arch: &str, options: &Options, area: &Path) -> Result<(), 
         .and_then(|()| std::fs::write(&ptx, &built.text))
         .map_err(|e| Failure(format!("cannot write {}: {e}", ptx.display())))?;
 
+    for one in optix_toolchain::ptx::suspicious(&built.text) {
+        eprintln!("warning: in {}, {one}", one.function);
+    }
     say!("{}: {} bytes, {arch}", ptx.display(), built.text.len());
     for entry in &built.entries {
         say!("    {entry}");

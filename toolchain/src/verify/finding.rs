@@ -54,6 +54,8 @@ pub enum Rule {
     Call,
     /// Calls of callables, and throwing.
     Callable,
+    /// Instructions that OptiX forbids or gives another meaning.
+    Instruction,
 }
 
 impl Rule {
@@ -72,6 +74,7 @@ impl Rule {
             Self::LocalMemory => "local-memory",
             Self::Call => "call",
             Self::Callable => "callable",
+            Self::Instruction => "instruction",
         }
     }
 
@@ -106,6 +109,10 @@ impl Rule {
             Self::Callable => {
                 "these calls are made by `Callable::call` and `throw`, which a program's context allows or not; look for code \
                  that was written by hand"
+            }
+            Self::Instruction => {
+                "no function of the device crate has it: look for `asm!`, in crates that are used too, and for atomics on what is no \
+                 memory behind a view"
             }
             Self::Call => {
                 "mark the function `#[inline]`, or allow the call by `--allow-function NAME` if it is meant to be one"

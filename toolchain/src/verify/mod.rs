@@ -17,6 +17,7 @@
 //! | no local memory but for payloads that travel by pointer | [`Rule::LocalMemory`] |
 //! | no function calls but those that the caller allows, and of the toolkit's own maths for rare arguments | [`Rule::Call`] |
 //! | callables are called, and exceptions thrown, by programs that may | [`Rule::Callable`] |
+//! | no barriers, shared memory, fences, atomics on local memory, nor registers and votes that mean something else in OptiX | [`Rule::Instruction`] |
 //! | nothing is missing that OptiX would have to find elsewhere | [`Rule::Module`] |
 //!
 //! Arguments of calls are followed to the constants they come from; one that is not a constant is a finding too.
@@ -25,6 +26,7 @@ mod callables;
 mod entries;
 mod facts;
 mod finding;
+mod forbidden;
 mod functions;
 mod host_program;
 mod layouts;
@@ -89,9 +91,10 @@ pub fn check(text: &str, pipelines: &[Pipeline], allowed: &[String]) -> Vec<Find
     let mut findings = Vec::new();
     let text = optix_ptx::plain(text);
     let module = Module::read(&text);
-    // Calls through pointers are told by program, below.
+    // Calls through pointers and forbidden instructions are told by program, below.
+    let forbidden = ptx::forbidden::forbidden(&module);
     if let Err(problem) = ptx::check(&module)
-        && !matches!(problem, ptx::Problem::Pointers(_))
+        && !matches!(problem, ptx::Problem::Pointers(_) | ptx::Problem::Forbidden(_))
     {
         findings.push(Finding::error(Rule::Module, "the module", problem.to_string()));
     }
@@ -110,11 +113,15 @@ pub fn check(text: &str, pipelines: &[Pipeline], allowed: &[String]) -> Vec<Find
                 trace::check(function, program, pipeline, &item, &mut findings);
                 primitives::check(function, program, &item, &mut findings);
                 callables::check(function, program, pipeline, &item, &mut findings);
+                forbidden::check(function, &forbidden, &item, &mut findings);
             }
             if let Some(entry) = reached.first() {
                 payload::check_type(entry, program, pipeline, &item, &mut findings);
             }
         }
+    }
+    for one in forbidden.iter().filter(|one| module.get(&one.function).is_none()) {
+        findings.push(Finding::error(Rule::Instruction, "the module", one.to_string()));
     }
     functions::check(&module, pipelines, allowed, &mut findings);
     // A function that several programs call, or one program several times, would say the same again.

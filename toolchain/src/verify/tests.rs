@@ -299,3 +299,45 @@ fn callables_and_exceptions() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].message.contains("`Demo` does not say what its programs throw"), "{}", found[0]);
 }
+
+#[test]
+fn forbidden_instructions_are_found_in_every_kind_of_program() {
+    for program in demo().programs {
+        let item = program.item(&demo());
+        let head = format!("{}()\n{{\n", program.entry);
+        let head = if PTX.contains(&head) { head } else { format!("{}(", program.entry) };
+        assert!(PTX.contains(&head), "{item}");
+        // Behind the brace that opens its body.
+        let begin = PTX.find(&head).expect("it is there");
+        let body = begin + PTX[begin..].find('{').expect("a body") + 1;
+        for (line, level, says) in [
+            ("bar.sync 0;", "error", "`bar.sync` works together with other threads"),
+            ("ld.shared.b32 %r1, [%r2];", "error", "`ld.shared.b32` uses shared memory"),
+            ("shfl.sync.idx.b32 %r1, %r2, 0, 31, -1;", "error", "`shfl.sync.idx.b32` works together"),
+            ("mov.u32 %r1, %envreg0;", "error", "`%envreg0` is a register that is not there"),
+            ("mov.u32 %r1, %tid.x;", "warning", "`%tid.x` has another meaning"),
+            ("activemask.b32 %r1;", "warning", "`activemask.b32` says something of the thread's place"),
+            ("fence.acq_rel.gpu;", "warning", "`fence.acq_rel.gpu` is a memory fence"),
+        ] {
+            let text = format!("{}\n\t{line}\n{}", &PTX[..body], &PTX[body..]);
+            let found = check(&text, &[demo()], &["helper".into()]);
+            assert_eq!(found.len(), 1, "{item}, {line}: {found:#?}");
+            let text = found[0].to_string();
+            assert!(text.starts_with(&format!("{level}[instruction]: {item}: {says}")), "{text}");
+        }
+        let local = "\t.local .align 4 .b8 \t__local_depot0[4];\nmov.b64 %rd90, __local_depot0;\ncvta.local.u64 %rd91, %rd90;\n\
+                     atom.add.u32 %r1, [%rd91], 1;";
+        let text = format!("{}\n{local}\n{}", &PTX[..body], &PTX[body..]);
+        let found = check(&text, &[demo()], &["helper".into()]);
+        assert!(
+            found.iter().any(|f| f.rule == Rule::Instruction && f.item == item && f.message.contains("atom.add.u32"))
+        );
+    }
+    // In a function that a program calls, and in no function.
+    one(
+        "mov.b32 %r1, 1;\n\tcall (%r2), _optix_get_payload, (%r1); // helper",
+        "bar.sync 0; mov.b32 %r1, 1;\n\tcall (%r2), _optix_get_payload, (%r1); // helper",
+        &["error[instruction]", "closest-hit program `shade`", "in `demo::helper`, which it calls"],
+    );
+    one("// end", ".shared .align 4 .b8 pool[16];\n", &["error[instruction]: the module: `pool` uses shared memory"]);
+}
