@@ -1,8 +1,8 @@
 //! Atomics on local memory.
 //!
 //! PTX leaves it undefined what `atom` and `red` do there. Their address is a register, so where it comes from is followed: from
-//! the variables of local memory through copies, conversions and sums, and through the parameters of functions. A
-//! pointer that is stored in memory and loaded again is lost sight of.
+//! the variables of local memory through copies, conversions and sums, through local memory itself, where
+//! `black_box` puts them among others, and through the parameters of functions.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -58,16 +58,27 @@ impl<'a> Flow<'a> {
         if local.is_empty() && parameters.is_empty() {
             return Self { atomics: Vec::new(), passed: Vec::new() };
         }
+        let offsets = offsets(statements);
+        // Where in local memory addresses of local memory are. None: somewhere.
+        let mut kept: BTreeSet<Option<i64>> = BTreeSet::new();
         for _ in 0..MOST_PASSES {
-            let before = local.len();
+            let before = (local.len(), kept.len());
             for statement in statements {
-                if let Statement::Instruction(instruction) = statement
-                    && let Some(target) = derived(instruction, &local, function.name, parameters)
-                {
+                let Statement::Instruction(instruction) = statement else { continue };
+                if let Some(target) = derived(instruction, &local, function.name, parameters) {
                     local.insert(target);
                 }
+                for (register, slot) in slots(instruction, &local, &offsets) {
+                    if instruction.name() == "st" && local.contains(register) {
+                        kept.insert(slot);
+                    } else if instruction.name() == "ld"
+                        && (kept.contains(&slot) || kept.contains(&None) || slot.is_none() && !kept.is_empty())
+                    {
+                        local.insert(register);
+                    }
+                }
             }
-            if local.len() == before {
+            if (local.len(), kept.len()) == before {
                 break;
             }
         }
@@ -86,6 +97,59 @@ impl<'a> Flow<'a> {
         }
         Self { atomics, passed }
     }
+}
+
+/// How far behind the beginning of local memory each register points, of those that always point to one place.
+fn offsets<'a>(statements: &[Statement<'a>]) -> HashMap<&'a str, i64> {
+    let mut offsets: HashMap<&str, i64> = statements.iter().filter_map(variable).map(|name| (name, 0)).collect();
+    let mut changing: BTreeSet<&str> = BTreeSet::new();
+    for statement in statements {
+        let Statement::Instruction(instruction) = statement else { continue };
+        let parts = operands(instruction.operands);
+        let offset = match (instruction.name(), &parts[..]) {
+            ("mov" | "cvta", [_, source]) => offsets.get(source).copied(),
+            ("add", [_, source, sum]) => {
+                let sum = sum.parse::<i64>().ok();
+                offsets.get(source).and_then(|offset| offset.checked_add(sum?))
+            }
+            ("st" | "red" | "bra" | "call", _) | (_, []) => continue,
+            _ => None,
+        };
+        let target = parts[0];
+        match offset {
+            Some(offset) if !changing.contains(target) && *offsets.entry(target).or_insert(offset) == offset => {}
+            // Another register of this name, or one place of many.
+            _ => {
+                changing.insert(target);
+                offsets.remove(target);
+            }
+        }
+    }
+    offsets
+}
+
+/// The registers of 64 bits that an instruction loads from or stores to local memory, with the place.
+fn slots<'a>(
+    instruction: &Instruction<'a>,
+    local: &BTreeSet<&str>,
+    offsets: &HashMap<&str, i64>,
+) -> Vec<(&'a str, Option<i64>)> {
+    let is_wide = instruction.op.split('.').any(|part| matches!(part, "b64" | "u64" | "s64"));
+    let parts = operands(instruction.operands);
+    let [first, second] = parts[..] else { return Vec::new() };
+    let (address, registers) = if instruction.name() == "st" { (first, second) } else { (second, first) };
+    if !is_wide
+        || !matches!(instruction.name(), "ld" | "st")
+        || !local.contains(base(address))
+        || instruction.op.contains(".param")
+    {
+        return Vec::new();
+    }
+    let sum = address.trim_matches(['[', ']']).strip_prefix(base(address)).unwrap_or_default().replace(['+', ' '], "");
+    let sum = if sum.is_empty() { Some(0) } else { sum.parse::<i64>().ok() };
+    let begin = offsets.get(base(address)).and_then(|offset| offset.checked_add(sum?));
+    let registers = registers.trim_matches(['{', '}']).split(',').map(str::trim).zip(0..);
+    registers.map(|(register, place)| (register, begin.and_then(|begin| begin.checked_add(8 * place)))).collect()
 }
 
 /// The name in `.local .align 4 .b8 name[4]`.
@@ -153,6 +217,9 @@ mod tests {
             "selp.b64 %rd1, %rd9, %SP, %p1;",
             "bra $L_2; $L_1: mov.b64 %rd1, %rd3; bra $L_3; $L_2: add.s64 %rd3, %rd4, %SP; bra $L_1; $L_3:",
             "cvta.to.global.u64 %rd1, %SP;",
+            "add.u64 %rd3, %SP, 8; add.u64 %rd4, %SPL, 16; st.local.b64 [%rd4+8], %rd3; ld.local.b64 %rd1, [%SPL+24];",
+            "st.local.v2.b64 [%SPL], {%rd9, %SP}; ld.b64 %rd1, [%SP+8];",
+            "st.local.b64 [%SPL], %SP; add.s64 %rd3, %SP, %rd5; ld.b64 %rd1, [%rd3];",
         ] {
             assert_eq!(
                 found(&format!("{derivation} atom.add.u32 %r2, [%rd1+4], 1;"), ""),
@@ -183,6 +250,8 @@ mod tests {
         for body in [
             "ld.param.u64 %rd1, [x_param_0]; atom.add.u32 %r1, [%rd1], 1;",
             "ld.local.b64 %rd1, [%SP]; ld.u64 %rd2, [%rd1]; atom.add.u32 %r1, [%rd2], 1;",
+            "st.local.b64 [%SPL], %SP; st.local.b64 [%SPL+8], %rd9; ld.local.b64 %rd1, [%SPL+8]; atom.add.u32 %r1, [%rd1], 1;",
+            "st.local.v2.b64 [%SPL], {%rd9, %SP}; ld.local.v2.b64 {%rd1, %rd2}, [%SPL]; atom.add.u32 %r1, [%rd1], 1;",
             "mul.lo.s64 %rd1, %SP, 2; sub.u64 %rd2, %rd3, %rd4; atom.add.u32 %r1, [%rd2], %r9;",
             "st.local.b32 [%SPL], %r1; ld.local.b32 %r2, [%SP]; red.global.add.u32 [%rd7+4], %r2;",
             "setp.eq.s64 %p1, %SP, %rd1; selp.b64 %rd2, %rd1, %rd3, %p1; atom.add.u32 %r1, [%rd2], 1;",
