@@ -35,7 +35,7 @@ pub fn torus_knot(along: u32, around: u32) -> Mesh {
             indices.extend([[a, b, c], [a, c, d]]);
         }
     }
-    Mesh { positions, indices, normals: Some(normals), name: "torus knot".into() }
+    Mesh { positions, indices, normals: Some(normals), name: "torus knot".into(), ..Mesh::default() }
 }
 
 fn sub(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {

@@ -9,6 +9,7 @@ use path_tracer::render::{LARGEST_PASS, Render, Settings};
 use path_tracer::scene::{Cornell, MESH_PLACE};
 use path_tracer::{knot, mesh, plot};
 use std::error::Error;
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -37,6 +38,9 @@ fn run(args: &Args) -> Result<(), Box<dyn Error>> {
         Some(path) => mesh::load(path)?,
         None => knot::torus_knot(512, 48),
     };
+    for what in &mesh.left_out {
+        eprintln!("note: {}: {what}", args.mesh.as_deref().unwrap_or(Path::new("")).display());
+    }
     let (centre, size) = MESH_PLACE;
     mesh::fit_into(&mut mesh, centre, size);
 

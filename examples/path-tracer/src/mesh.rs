@@ -7,6 +7,7 @@
 mod fit;
 mod gltf;
 mod obj;
+mod polygon;
 #[cfg(test)]
 mod tests;
 
@@ -29,6 +30,8 @@ pub struct Mesh {
     pub normals: Option<Vec<[f32; 3]>>,
     /// What to call it: the file's name without its extension.
     pub name: String,
+    /// What of the file is not in it, in words.
+    pub left_out: Vec<String>,
 }
 
 /// Why a mesh could not be loaded. Displays as one line.
@@ -60,11 +63,17 @@ pub enum MeshError {
         why: String,
     },
     /// There is nothing to draw.
-    #[error("{}: holds no triangles", path.display())]
+    #[error("{}: holds no triangles{}", path.display(), in_parentheses(left_out))]
     Empty {
         /// The file.
         path: PathBuf,
+        /// What it holds that can't be drawn, in words.
+        left_out: Vec<String>,
     },
+}
+
+fn in_parentheses(left_out: &[String]) -> String {
+    if left_out.is_empty() { String::new() } else { format!(" ({})", left_out.join("; ")) }
 }
 
 /// A mesh file's format, by its extension.
@@ -106,8 +115,9 @@ impl Fault {
 
 /// Loads a mesh file; all its objects become one mesh.
 ///
-/// Polygons are cut into triangle fans. Of glTF, the default scene is taken (the first where none is marked), with its
-/// nodes' transforms; strips and fans become triangles; skins, morph targets and materials are ignored.
+/// Polygons, also those that are not convex, are cut into triangles. Of glTF, the default scene is taken (the first where none
+/// is marked), with its nodes' transforms; strips and fans become triangles. What is not a part of the shape, such as
+/// materials, is not looked at; [`Mesh::left_out`] says which shapes are missing: lines, points, curves, morph targets.
 ///
 /// # Errors
 /// See [`MeshError`]. Never panics, whatever the bytes.
@@ -121,7 +131,7 @@ pub fn load(path: &Path) -> Result<Mesh, MeshError> {
     let mut mesh =
         parsed.map_err(|fault| MeshError::Malformed { path: path.to_owned(), place: fault.place, why: fault.why })?;
     if mesh.indices.is_empty() {
-        return Err(MeshError::Empty { path: path.to_owned() });
+        return Err(MeshError::Empty { path: path.to_owned(), left_out: mesh.left_out });
     }
     normalize_normals(&mut mesh);
     mesh.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -8,6 +8,8 @@ mod buffers;
 
 use std::path::Path;
 
+use gltf::json::validation::Checked;
+use gltf::json::{Index, Value};
 use gltf::mesh::{Mode, Primitive, Semantic};
 use gltf::{Document, Gltf, Node};
 
@@ -22,6 +24,10 @@ const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0,
 const HARMLESS: [&str; 2] = ["KHR_materials_", "KHR_texture_"];
 
 pub(super) fn parse(bytes: &[u8], folder: &Path) -> Result<Mesh, Fault> {
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err(Fault::new("as a whole", "it is in UTF-16; glTF is in UTF-8"));
+    }
+    let bytes = bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes);
     // gltf subtracts the header's 12 bytes from the length that the header states.
     if bytes.starts_with(b"glTF") && bytes.get(8..12).is_none_or(|n| u32::from_le_bytes([n[0], n[1], n[2], n[3]]) < 12)
     {
@@ -33,7 +39,8 @@ pub(super) fn parse(bytes: &[u8], folder: &Path) -> Result<Mesh, Fault> {
             return Err(Fault::new("extensionsRequired", format!("{extension:?} is not supported")));
         }
     }
-    let document = revalidate(document)?;
+    let mut left_out = LeftOut::default();
+    let document = revalidate(document, &mut left_out)?;
     let buffers = buffers::load(&document, blob, folder)?;
     let mut mesh = Mesh::default();
     for (node, world) in placed_nodes(&document)? {
@@ -42,6 +49,7 @@ pub(super) fn parse(bytes: &[u8], folder: &Path) -> Result<Mesh, Fault> {
             add_primitive(&mut mesh, part.index(), &primitive, &world, &buffers)?;
         }
     }
+    left_out.count_scenes(&document);
     if document.nodes().len() == 0 {
         for part in document.meshes() {
             for primitive in part.primitives() {
@@ -49,14 +57,17 @@ pub(super) fn parse(bytes: &[u8], folder: &Path) -> Result<Mesh, Fault> {
             }
         }
     }
+    mesh.left_out = left_out.in_words();
     Ok(mesh)
 }
 
-/// Runs the crate's validation, which makes its accessors safe to call.
-fn revalidate(document: Document) -> Result<Document, Fault> {
+/// Runs the crate's validation, which makes its accessors safe to call, on what is used of the file.
+fn revalidate(document: Document, left_out: &mut LeftOut) -> Result<Document, Fault> {
     let mut json = document.into_json();
     // It knows no extension that it was not compiled with; those that are left are harmless.
     json.extensions_required.clear();
+    left_out.has_copies = json.extensions_used.iter().any(|name| name == "EXT_mesh_gpu_instancing");
+    only_shapes(&mut json, left_out);
     // It looks positions up before it has checked their index.
     for (m, mesh) in json.meshes.iter().enumerate() {
         for (p, primitive) in mesh.primitives.iter().enumerate() {
@@ -68,6 +79,113 @@ fn revalidate(document: Document) -> Result<Document, Fault> {
         }
     }
     Document::from_json(json).map_err(|e| describe(&e))
+}
+
+/// Removes everything that is no shape: a fault in it is no reason to refuse the file.
+fn only_shapes(json: &mut gltf::json::Root, left_out: &mut LeftOut) {
+    json.animations.clear();
+    json.cameras.clear();
+    json.images.clear();
+    json.materials.clear();
+    json.samplers.clear();
+    json.skins.clear();
+    json.textures.clear();
+    for node in &mut json.nodes {
+        left_out.skins += usize::from(node.skin.take().is_some());
+        (node.camera, node.weights) = (None, None);
+    }
+    let mut used = vec![false; json.accessors.len()];
+    let mut positions = Vec::new();
+    for mesh in &mut json.meshes {
+        mesh.weights = None;
+        for primitive in &mut mesh.primitives {
+            primitive.material = None;
+            left_out.morphs += usize::from(primitive.targets.take().is_some_and(|targets| !targets.is_empty()));
+            let position = Checked::Valid(Semantic::Positions);
+            let is_shape =
+                |semantic: &Checked<Semantic>| *semantic == position || *semantic == Checked::Valid(Semantic::Normals);
+            primitive.attributes.retain(|semantic, _| is_shape(semantic));
+            let mode = match primitive.mode {
+                Checked::Valid(mode) => mode,
+                Checked::Invalid => continue,
+            };
+            if !is_drawn(mode) || !primitive.attributes.contains_key(&position) {
+                // glTF 2.0, section 3.7.2.1: one without positions is skipped. Its place stays, for messages.
+                if is_drawn(mode) {
+                    left_out.without_positions += 1;
+                } else {
+                    left_out.add(mode);
+                }
+                primitive.mode = Checked::Valid(Mode::Points);
+                (primitive.indices, primitive.attributes) = (None, [(position, Index::new(0))].into());
+                positions.push(0);
+                continue;
+            }
+            positions.extend(primitive.attributes.get(&position).map(Index::value));
+            for index in primitive.attributes.values().chain(&primitive.indices) {
+                used.get_mut(index.value()).map(|used| *used = true);
+            }
+        }
+    }
+    for (at, accessor) in json.accessors.iter_mut().enumerate() {
+        // Nothing here reads them; exporters leave them out.
+        let bound = positions.contains(&at).then(|| Value::from([0.0; 3].to_vec()));
+        (accessor.min, accessor.max) = (bound.clone(), bound);
+        if !used[at] {
+            // Its place must stay; what it points to need not be there.
+            accessor.sparse = None;
+            accessor.buffer_view = (!json.buffer_views.is_empty()).then(|| Index::new(0));
+        }
+    }
+}
+
+fn is_drawn(mode: Mode) -> bool {
+    matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)
+}
+
+/// What of a file is not drawn.
+#[derive(Default)]
+struct LeftOut {
+    /// Primitives by mode.
+    modes: Vec<(Mode, usize)>,
+    without_positions: usize,
+    skins: usize,
+    morphs: usize,
+    scenes: usize,
+    has_copies: bool,
+}
+
+impl LeftOut {
+    fn add(&mut self, mode: Mode) {
+        match self.modes.iter_mut().find(|(known, _)| *known == mode) {
+            Some((_, count)) => *count += 1,
+            None => self.modes.push((mode, 1)),
+        }
+    }
+
+    fn count_scenes(&mut self, document: &Document) {
+        self.scenes = document.scenes().len().saturating_sub(1);
+    }
+
+    fn in_words(self) -> Vec<String> {
+        let mut words: Vec<String> = Vec::new();
+        let mut add = |count: usize, what: &str| {
+            if count > 0 {
+                words.push(format!("{count} {what}{} left out", if count == 1 { " is" } else { "s are" }));
+            }
+        };
+        for (mode, count) in self.modes {
+            add(count, &format!("{mode:?} primitive"));
+        }
+        add(self.without_positions, "primitive without POSITION");
+        add(self.morphs, "primitive's morph target");
+        add(self.skins, "node's skin");
+        add(self.scenes, "further scene");
+        if self.has_copies {
+            words.push("copies by EXT_mesh_gpu_instancing are left out".into());
+        }
+        words
+    }
 }
 
 /// The error in one line; of several, the first.
@@ -122,6 +240,9 @@ fn add_primitive(
 ) -> Result<(), Fault> {
     let place = format!("mesh {mesh_index}, primitive {}", primitive.index());
     let fault = |why: String| Fault::new(&place, why);
+    if !is_drawn(primitive.mode()) {
+        return Ok(());
+    }
     let positions = primitive.get(&Semantic::Positions).ok_or_else(|| fault("has no POSITION".into()))?;
     let positions = accessor::vectors(&positions, buffers).map_err(|e| fault(format!("POSITION: {e}")))?;
     let sequence: Vec<u32> = match primitive.indices() {
@@ -188,6 +309,6 @@ fn triangles(mode: Mode, sequence: &[u32]) -> Result<Vec<[u32; 3]>, String> {
             [hub, rim @ ..] => Ok(rim.windows(2).map(|w| [*hub, w[0], w[1]]).collect()),
             [] => Ok(Vec::new()),
         },
-        other => Err(format!("its mode is {other:?}; only Triangles, TriangleStrip and TriangleFan can be drawn")),
+        Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip => Ok(Vec::new()),
     }
 }

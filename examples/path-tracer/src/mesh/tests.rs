@@ -117,7 +117,172 @@ fn obj_faults_name_their_line() {
     }
     assert_eq!(message("bad.obj", three.as_bytes()), "bad.obj: holds no triangles");
     assert_eq!(message("bad.obj", b""), "bad.obj: holds no triangles");
-    assert_eq!(message("bad.obj", b"\xff\xfe\x00\x00"), "bad.obj: holds no triangles");
+    let zero = "bad.obj, line 2: a zero byte: this is no text in UTF-8, UTF-16 or the like";
+    assert_eq!(message("bad.obj", b"v 0 0 0\nv \0 0 0\n"), zero);
+    assert!(message("bad.obj", b"\xff\xfe\x00\x00").contains("a zero byte"));
+}
+
+#[test]
+fn obj_in_every_encoding_and_with_every_line_end() {
+    let expected = load_bytes("a.obj", SQUARE_OBJ.as_bytes()).unwrap();
+    let comment = "# not ASCII: ü 点\n";
+    for end in ["\n", "\r\n", "\r"] {
+        for text in [format!("{comment}{SQUARE_OBJ}"), format!("{SQUARE_OBJ}{comment}")] {
+            let text = text.replace('\n', end);
+            let wide = |word: fn(u16) -> [u8; 2]| text.encode_utf16().flat_map(word).collect::<Vec<u8>>();
+            let with_mark = |mark: &[u8], bytes: &[u8]| [mark, bytes].concat();
+            let (little, big) = (wide(u16::to_le_bytes), wide(u16::to_be_bytes));
+            for bytes in [
+                text.clone().into_bytes(),
+                with_mark(b"\xef\xbb\xbf", text.as_bytes()),
+                text.chars().map(|c| u8::try_from(c).unwrap_or(b'?')).collect(),
+                with_mark(b"\xff\xfe", &little),
+                with_mark(b"\xfe\xff", &big),
+                little,
+                big,
+            ] {
+                assert_eq!(load_bytes("a.obj", &bytes).unwrap(), expected, "{end:?} {:?}", &bytes[..8]);
+            }
+        }
+    }
+    // The first line may be the one that counts.
+    let marked = "\u{feff}v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    assert_eq!(load_bytes("a.obj", marked.as_bytes()).unwrap().positions.len(), 3);
+}
+
+#[test]
+fn obj_comments_and_continued_lines() {
+    let expected = load_bytes("a.obj", b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").unwrap();
+    for text in [
+        "v 0 0 0 # one\nv 1 0 0#two\nv 1 1 0\nv 0 1 0\nf 1 2 3 4 # five 5\n",
+        "# C:\\meshes\\\nv 0 0 0\nv 1 0 0 # \\\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n",
+        "v 0 0 0\nv 1 0 \\ \n0\nv 1 1 0\nv 0 1 0\nf 1 \\\n2 \\\n3 4\n",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt nan\nvt x y z\nfo 1 2 3 4\n",
+    ] {
+        assert_eq!(load_bytes("a.obj", text.as_bytes()).unwrap(), expected, "{text}");
+    }
+}
+
+#[test]
+fn obj_says_what_it_leaves_out() {
+    let left_out = |text: &str| load_bytes("a.obj", format!("{SQUARE_OBJ}{text}").as_bytes()).unwrap().left_out;
+    assert_eq!(left_out("o x\nusemtl y\ns 1\nmtllib z.mtl\n"), [""; 0]);
+    assert_eq!(
+        left_out("l 1 2\nl 2 3\np 1\n"),
+        ["2 lines from line 14 on, lines, are left out", "line 16, points, is left out"]
+    );
+    assert_eq!(
+        left_out("xyzzy 1\nsurf 0 1\n"),
+        ["line 14, 'xyzzy', which is no keyword, is left out", "line 15, curved surfaces, is left out"]
+    );
+    assert_eq!(
+        message("a.obj", format!("{SQUARE_OBJ}V 0 0 0\n").as_bytes()),
+        "a.obj, line 14: 'V' is no keyword; perhaps 'v' is meant"
+    );
+    assert!(
+        message("a.obj", format!("{SQUARE_OBJ}0 1 2\n").as_bytes())
+            .contains("line 14: '0' is no keyword; does this belong")
+    );
+    assert_eq!(message("a.obj", b"v 0 0 0\np 1\n"), "a.obj: holds no triangles (line 2, points, is left out)");
+}
+
+/// Twice the area of all triangles, and that of each beside a normal.
+fn areas(mesh: &Mesh) -> (f64, Vec<f64>) {
+    let area = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|i| mesh.positions[i as usize].map(f64::from));
+        cross(sub(b, a), sub(c, a))
+    };
+    let each: Vec<[f64; 3]> = mesh.indices.iter().map(area).collect();
+    let length = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (each.iter().map(length).sum(), each.iter().map(|v| v[0] + v[1] + v[2]).collect())
+}
+
+#[test]
+fn obj_polygons_that_are_not_convex_are_covered() {
+    // In the plane x + y + z = 0 and others, turned to begin at each corner, in both directions, of any size.
+    let shapes: [(&[[f32; 2]], f64); 4] = [
+        (&[[0., 0.], [2., 0.], [2., 1.], [1., 1.], [1., 2.], [0., 2.]], 3.0),
+        (&[[0., 0.], [4., 0.], [4., 4.], [2., 1.]], 6.0),
+        (
+            &[
+                [0., 0.],
+                [5., 0.],
+                [5., 3.],
+                [4., 3.],
+                [4., 1.],
+                [3., 1.],
+                [3., 3.],
+                [2., 3.],
+                [2., 1.],
+                [1., 1.],
+                [1., 3.],
+                [0., 3.],
+            ],
+            11.0,
+        ),
+        (&[[0., 0.], [1., 0.], [2., 0.], [2., 2.], [1., 2.], [0., 2.], [0., 1.]], 4.0),
+    ];
+    for (shape, area) in shapes {
+        for (side, other) in
+            [([1., 0., 0.], [0., 1., 0.]), ([0., 1., 0.], [1., 0., 0.]), ([1., -1., 0.], [0.5, 0.5, -1.])]
+        {
+            for size in [1.0_f32, 1e-30, 1e15] {
+                for begin in 0..shape.len() {
+                    let mut text = String::new();
+                    for i in 0..shape.len() {
+                        let [u, v] = shape[(begin + i) % shape.len()];
+                        let p: [f32; 3] = std::array::from_fn(|k| size * (u * side[k] + v * other[k]));
+                        text += &format!("v {:e} {:e} {:e}\n", p[0], p[1], p[2]);
+                    }
+                    text += "f";
+                    (1..=shape.len()).for_each(|i| text += &format!(" {i}"));
+                    let mesh = load_bytes("a.obj", text.as_bytes()).unwrap();
+                    let (all, each) = areas(&mesh);
+                    let unit: f64 = {
+                        let c = cross(side.map(f64::from), other.map(f64::from));
+                        c.iter().map(|x| x * x).sum::<f64>().sqrt()
+                    };
+                    let wanted = 2.0 * area * unit * f64::from(size).powi(2);
+                    assert!((all / wanted - 1.0).abs() < 1e-4, "{all} {wanted}: {text}");
+                    let sign = each.iter().copied().find(|x| *x != 0.0).unwrap_or(1.0).signum();
+                    assert!(each.iter().all(|x| x * sign >= -1e-6 * wanted), "one direction: {each:?} {text}");
+                    assert_eq!((mesh.indices.len(), mesh.left_out.len()), (shape.len() - 2, 0), "{text}");
+                }
+            }
+        }
+    }
+    // Normals go with their corners.
+    let text = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nvn 0 0 1\nvn 1 0 0\nf 1//1 2//2 3//1 4//2\n";
+    let mesh = load_bytes("a.obj", text.as_bytes()).unwrap();
+    for (position, normal) in mesh.positions.iter().zip(mesh.normals.as_ref().unwrap()) {
+        let second = *position == [4.0, 0.0, 0.0] || *position == [2.0, 1.0, 0.0];
+        assert_eq!(*normal, if second { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] });
+    }
+    // One that crosses itself is said to.
+    let star = (0..5).map(|i| (f64::from(i) * 0.8 * std::f64::consts::PI).sin_cos());
+    let star: String = star.map(|(y, x)| format!("v {x} {y} 0\n")).chain(["f 1 2 3 4 5\n".into()]).collect();
+    let mesh = load_bytes("a.obj", star.as_bytes()).unwrap();
+    assert!(mesh.left_out[0].starts_with("1 faces, the first in line 6, have sides that cross"), "{:?}", mesh.left_out);
+}
+
+#[test]
+fn polygons_of_any_corners_never_panic() {
+    let mut rng = Rng(7);
+    let mut cutter = polygon::Cutter::new();
+    let specials = [0.0, -0.0, 1.0, f32::MAX, f32::MIN, f32::MIN_POSITIVE, f32::from_bits(1), 1e-20, 0.5];
+    for _ in 0..20_000 {
+        let corners: Vec<[f32; 3]> = (0..3 + rng.below(12))
+            .map(|_| {
+                std::array::from_fn(|_| match rng.below(3) {
+                    0 => specials[rng.below(specials.len())],
+                    1 => rng.below(4) as f32,
+                    _ => rng.below(1 << 20) as f32 / 3e5 - 1.0,
+                })
+            })
+            .collect();
+        let cut = cutter.cut(&corners);
+        assert!(cut.triangles.iter().flatten().all(|&corner| (corner as usize) < corners.len()));
+    }
 }
 
 #[test]
@@ -240,11 +405,62 @@ fn gltf_modes() {
     assert_eq!(mode(5).unwrap().indices, [[0, 1, 2], [2, 1, 0], [2, 0, 2], [2, 0, 3]]);
     assert_eq!(mode(6).unwrap().indices, [[0, 1, 2], [0, 2, 0], [0, 0, 2], [0, 2, 3]]);
     for (m, name) in [(0, "Points"), (1, "Lines"), (2, "LineLoop"), (3, "LineStrip")] {
-        let expected = format!(
-            "a.gltf, mesh 0, primitive 0: its mode is {name}; only Triangles, TriangleStrip and TriangleFan can be drawn"
-        );
-        assert_eq!(mode(m).unwrap_err().to_string().split_once("a.gltf").unwrap().1, &expected[6..]);
+        let expected = format!("a.gltf: holds no triangles (1 {name} primitive is left out)");
+        assert!(mode(m).unwrap_err().to_string().ends_with(&expected), "{expected}");
     }
+}
+
+#[test]
+fn gltf_shapes_beside_triangles_are_left_out_with_a_note() {
+    let more = |primitive: &str| {
+        let triangles = r#"{"attributes":{"POSITION":0,"NORMAL":2},"indices":1}"#;
+        let text = embedded("", "").replace(&format!("[{triangles}]"), &format!("[{primitive},{triangles}]"));
+        assert!(text.contains(primitive));
+        load_bytes("a.gltf", text.as_bytes()).unwrap()
+    };
+    for (primitive, note) in [
+        (r#"{"attributes":{"POSITION":0},"mode":1}"#, "1 Lines primitive is left out"),
+        (r#"{"attributes":{"POSITION":77},"mode":0}"#, "1 Points primitive is left out"),
+        (r#"{"attributes":{"NORMAL":2}}"#, "1 primitive without POSITION is left out"),
+        (
+            r#"{"attributes":{"POSITION":0},"mode":3,"indices":1},{"attributes":{"POSITION":0},"mode":3}"#,
+            "2 LineStrip primitives are left out",
+        ),
+    ] {
+        let mesh = more(primitive);
+        assert_is_square(&mesh);
+        assert_eq!(mesh.left_out, [note], "{primitive}");
+    }
+    assert_eq!(load_bytes("a.gltf", embedded("", "").as_bytes()).unwrap().left_out, [""; 0]);
+    let skinned = embedded(r#","skin":0"#, r#","targets":[{"POSITION":0}]"#);
+    let mesh = load_bytes("a.gltf", skinned.as_bytes()).unwrap();
+    assert_eq!(mesh.left_out, ["1 primitive's morph target is left out", "1 node's skin is left out"]);
+    let copies =
+        embedded("", "").replacen(r#""asset":"#, r#""extensionsUsed":["EXT_mesh_gpu_instancing"],"asset":"#, 1);
+    assert!(load_bytes("a.gltf", copies.as_bytes()).unwrap().left_out[0].contains("EXT_mesh_gpu_instancing"));
+}
+
+#[test]
+fn gltf_faults_in_what_is_no_shape_do_not_matter() {
+    let good = embedded(r#","camera":5"#, r#","material":9"#);
+    for (from, to) in [
+        ("", ""),
+        (r#""NORMAL":2}"#, r#""NORMAL":2,"TEXCOORD_0":77,"_MINE":78}"#),
+        (r#","min":[0,0,0],"max":[1,1,0]"#, ""),
+        (r#""asset":"#, r#""images":[{"bufferView":7}],"textures":[{"source":3}],"asset":"#),
+        (r#""asset":"#, r#""materials":[{"normalTexture":{"index":4}}],"asset":"#),
+        (r#""asset":"#, r#""skins":[{"joints":[44]}],"asset":"#),
+        (r#""accessors":["#, r#""animations":[{"channels":[],"samplers":[{"input":9,"output":8}]}],"accessors":["#),
+        (r#""buffers":["#, r#""buffers":[{"byteLength":4,"uri":"missing.bin"},"#),
+    ] {
+        let mut text = good.replacen(from, to, usize::from(!from.is_empty()));
+        if from.contains("buffers") {
+            text = text.replace(r#"{"buffer":0,"#, r#"{"buffer":1,"#);
+        }
+        assert_is_square(&load_bytes("a.gltf", text.as_bytes()).unwrap_or_else(|error| panic!("{to}: {error}")));
+    }
+    assert_is_square(&load_bytes("a.gltf", format!("\u{feff}{}", embedded("", "")).as_bytes()).unwrap());
+    assert!(message("a.gltf", b"\xff\xfe{\0}\0").contains("UTF-16"));
 }
 
 #[test]
@@ -317,7 +533,6 @@ fn gltf_faults_name_their_place() {
             r#""mesh":0,"translation":[3e38,0,0],"scale":[3e38,1,1]"#,
             "mesh 0, primitive 0: vertex 1 is not finite after the node's transform",
         ),
-        (r#""attributes":{"POSITION":0,"#, r#""attributes":{"#, ""),
     ];
     for (from, to, expected) in cases {
         assert!(good.contains(from), "{from}");

@@ -8,6 +8,7 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use gltf::Document;
 use gltf::buffer::Source;
 
+use super::is_drawn;
 use crate::mesh::{Fault, read_file};
 
 /// Padding is left out by some exporters.
@@ -16,10 +17,24 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-/// The contents of every buffer, each at least as long as it is declared.
+/// The contents of every buffer that an accessor reads, each at least as long as it is declared. The others are empty.
 pub(super) fn load(document: &Document, mut blob: Option<Vec<u8>>, folder: &Path) -> Result<Vec<Vec<u8>>, Fault> {
+    let mut used = vec![false; document.buffers().len()];
+    let primitives = document.meshes().flat_map(|mesh| mesh.primitives()).filter(|one| is_drawn(one.mode()));
+    let accessors = primitives
+        .flat_map(|one| one.attributes().map(|(_, accessor)| accessor).chain(one.indices()).collect::<Vec<_>>());
+    for accessor in accessors {
+        let sparse = accessor.sparse().map(|sparse| [sparse.indices().view(), sparse.values().view()]);
+        for view in accessor.view().into_iter().chain(sparse.into_iter().flatten()) {
+            used[view.buffer().index()] = true;
+        }
+    }
     let mut buffers = Vec::new();
     for buffer in document.buffers() {
+        if !used[buffer.index()] {
+            buffers.push(Vec::new());
+            continue;
+        }
         let fault = |why: String| Fault::new(format!("buffer {}", buffer.index()), why);
         let bytes = match buffer.source() {
             Source::Bin => blob.take().ok_or_else(|| fault("the file has no binary chunk for it".into()))?,
