@@ -188,7 +188,12 @@ fn view(model: &Struct) -> TokenStream {
     });
     let doc = format!("What a program sees of [`{}`]: a method for each field, which loads that field.", model.name());
     let outside = device_crate_outside();
+    let members = model.fields.iter().map(|field| &field.member);
     let impls = block(quote! {
+        // So that no method is unused.
+        const _: () = {
+            #(let _ = #view::#members;)*
+        };
         #[automatically_derived]
         impl #view<'_> {
             #(#methods)*

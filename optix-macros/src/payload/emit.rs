@@ -2,6 +2,7 @@
 
 use super::model::{Party, Payload, Transport};
 use crate::data::{docs_or, touch};
+use crate::shape::Struct;
 use crate::support::{block, device_crate, moved, place_of};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
@@ -15,6 +16,11 @@ struct Part {
 }
 
 impl Part {
+    /// The fields that its struct has. Of a struct that nobody gets, all, so that nothing but its use is reported.
+    fn indices(&self, shape: &Struct) -> Vec<usize> {
+        if self.is_hollow() { (0..shape.fields.len()).collect() } else { self.fields.clone() }
+    }
+
     /// Whether it has nothing of the payload: `()` is in its place, and its struct is there for who asks for it.
     fn is_hollow(&self) -> bool {
         self.fields.is_empty()
@@ -41,6 +47,13 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
         .collect();
 
     let structs = parts.iter().map(|part| part_struct(payload, part));
+    // So that none is unused.
+    let touched = parts.iter().map(|part| {
+        let ident = &part.ident;
+        let indices = part.indices(shape).into_iter();
+        let members: Vec<_> = indices.map(|i| &shape.fields[i].member).collect();
+        quote!(const _: fn(#ident) -> #ident = |__value| #ident { #(#members: __value.#members),* };)
+    });
     let impls = parts
         .iter()
         .map(|part| if part.is_hollow() { hollow_impls(payload, part, sound) } else { part_impls(payload, part) });
@@ -151,6 +164,7 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
             }
             #without_closesthit
             #(#impls)*
+            #(#touched)*
             #touch
     });
     quote!(#(#structs)* #items)
@@ -187,10 +201,7 @@ fn part_struct(payload: &Payload, part: &Part) -> TokenStream {
     } else {
         format!("{doc}: the fields that say `{list}({keyword})`.")
     };
-    // Of a struct that nobody gets, all fields, so that nothing but its use is reported.
-    let all = 0..shape.fields.len();
-    let indices: Vec<usize> = if part.is_hollow() { all.collect() } else { part.fields.clone() };
-    let fields = indices.into_iter().map(|i| {
+    let fields = part.indices(shape).into_iter().map(|i| {
         let field = &shape.fields[i];
         let (vis, member, ty) = (&field.vis, &field.member, &field.ty);
         let docs = docs_or(&field.attrs, || format!("Field `{}` of [`{name}`].", field.name()));

@@ -585,3 +585,43 @@ fn parts_show_what_they_can() {
     let part = ShownFromCaller { seed: 7, opaque: Opaque(8) };
     assert_eq!(format!("{part:?}"), "ShownFromCaller { seed: 7, opaque: .. }");
 }
+
+macro_rules! several {
+    ($($module:ident)*) => {$(
+        mod $module {
+            use optix_device_rs::prelude::*;
+
+            #[launch_params]
+            pub struct Only {
+                pub film: SliceMut<u32>,
+            }
+
+            #[raygen]
+            fn camera(_: &RayGen<Flat>) {}
+
+            pipeline! {
+                pub struct Flat {
+                    params: Only,
+                    raygen: [camera],
+                }
+            }
+        }
+    )*};
+}
+several! { first second third }
+
+#[test]
+fn what_a_macro_makes_several_times_has_names_of_its_own() {
+    let of = [
+        <first::Flat as Pipeline>::DESCRIPTION,
+        <second::Flat as Pipeline>::DESCRIPTION,
+        <third::Flat as Pipeline>::DESCRIPTION,
+    ];
+    for (i, one) in of.iter().enumerate() {
+        for other in &of[..i] {
+            assert_ne!(one.raygen[0].entry.name, other.raygen[0].entry.name);
+            assert_ne!(one.params.symbol, other.params.symbol);
+            assert_ne!(one.layouts, other.layouts);
+        }
+    }
+}

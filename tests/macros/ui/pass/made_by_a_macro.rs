@@ -59,6 +59,42 @@ macro_rules! programs {
 programs!(First: grey_camera, grey_shade(GreyPaint, GreyAtClosestHit) -> GreyFromClosestHit, grey_sky -> GreyFromMiss(1.0));
 programs!(Second: coloured_camera, coloured_shade(ColouredPaint, ColouredAtClosestHit) -> ColouredFromClosestHit, coloured_sky -> ColouredFromMiss(Vec3::ONE));
 
+macro_rules! twice {
+    ($($module:ident)*) => {$(
+        mod $module {
+            use optix_device_rs::prelude::*;
+
+            #[launch_params]
+            pub struct Frame {
+                pub film: SliceMut<u32>,
+            }
+
+            #[derive(Payload)]
+            pub struct Radiance {
+                #[payload(write(closesthit, miss), read(caller))]
+                pub light: u32,
+            }
+
+            #[raygen]
+            fn camera(_: &RayGen<Flat>) {}
+
+            #[miss]
+            fn sky(_: &Miss<Flat>) -> RadianceFromMiss {
+                RadianceFromMiss { light: 1 }
+            }
+
+            pipeline! {
+                pub struct Flat {
+                    params: Frame,
+                    raygen: [camera],
+                    rays: { Radiance { miss: sky } },
+                }
+            }
+        }
+    )*};
+}
+twice! { first second }
+
 fn main() {
     assert_ne!(First::DESCRIPTION.raygen[0].entry.name, Second::DESCRIPTION.raygen[0].entry.name);
 }
