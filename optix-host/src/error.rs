@@ -1,9 +1,10 @@
 //! What can go wrong on the host. Each message says what was asked, what is wrong, and what to do.
 
 use optix_device_rs::host::MemoryError;
+use std::fmt;
 
 /// An error of a host call.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// Geometry that no acceleration structure can be built from.
@@ -50,4 +51,30 @@ pub enum Error {
     /// The CPU executor could not build an acceleration structure.
     #[error("acceleration structure: {0}")]
     Build(#[from] crate::cpu::kernel::BuildError),
+}
+
+/// As [`Display`](fmt::Display): what `main` prints of an error that it returns, and `unwrap` of one that it meets.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::GeometryError;
+
+    #[test]
+    fn what_main_prints_is_the_message() {
+        let error = Error::from(GeometryError::PartialTriangle { count: 4 });
+        assert_eq!(format!("{error:?}"), error.to_string());
+        let boxed: Box<dyn std::error::Error> = error.into();
+        assert_eq!(
+            format!("{boxed:?}"),
+            "4 positions without indices are not whole triangles: give a multiple of 3, or indices"
+        );
+        let error: Box<dyn std::error::Error> = MemoryError("the copy failed".into()).into();
+        assert_eq!(format!("{error:?}"), "the copy failed");
+    }
 }

@@ -12,7 +12,7 @@ use std::vec::Vec;
 pub struct DeviceId(pub u64);
 
 /// An error of device memory, from the driver.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct MemoryError(pub String);
 
 impl core::fmt::Display for MemoryError {
@@ -21,6 +21,13 @@ impl core::fmt::Display for MemoryError {
     }
 }
 impl std::error::Error for MemoryError {}
+
+/// As [`Display`](core::fmt::Display): what `main` prints of an error that it returns, and `unwrap` of one that it meets.
+impl core::fmt::Debug for MemoryError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        core::fmt::Display::fmt(self, f)
+    }
+}
 
 /// An allocation on a device; copies are ordered with the device's launches. For backends.
 ///

@@ -6,6 +6,7 @@ use glam::Vec3;
 use optix_device_rs::attributes::{Custom, Geometry as GeometryKindOf, Triangles};
 use optix_device_rs::pipeline::{HasHitGroup, Pipeline};
 use optix_device_rs::record::SbtRecord;
+use std::fmt;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -78,7 +79,7 @@ impl GeometryData {
 }
 
 /// What is wrong with geometry.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeometryError {
     /// No primitive.
@@ -129,6 +130,13 @@ pub enum GeometryError {
         /// How many there are.
         count: usize,
     },
+}
+
+/// As [`Display`](fmt::Display): what `main` prints of an error that it returns, and `unwrap` of one that it meets.
+impl fmt::Debug for GeometryError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
 }
 
 /// Something that becomes geometry.

@@ -3,8 +3,19 @@
 use {{ident}}_shaders::{FrameHost, Paint, Radiance, Renderer, Sky};
 use optix_host::glam::{Affine3A, Vec3};
 use optix_host::{Device, Pipeline, Scene, TriangleMesh};
+use std::process::ExitCode;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> ExitCode {
+    match render() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn render() -> Result<(), Box<dyn std::error::Error>> {
     let device = Device::best()?;
     println!("device: {}", device.description());
 

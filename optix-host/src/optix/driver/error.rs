@@ -6,7 +6,7 @@ use super::log::LogMessage;
 use super::sys::OptixResult;
 
 /// An error of the OptiX backend: what was asked, what is wrong, what to do.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A driver library could not be loaded.
@@ -65,6 +65,13 @@ pub enum Error {
         /// What to do.
         remedy: &'static str,
     },
+}
+
+/// As [`Display`](fmt::Display): what `main` prints of an error that it returns, and `unwrap` of one that it meets.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
 }
 
 impl Error {
