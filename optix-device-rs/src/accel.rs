@@ -88,6 +88,7 @@ impl Instances {
     /// Instance `index`, as in [`instance_index`](crate::program::ClosestHit::instance_index); `context` is that of the running
     /// program (`optixGetInstanceTraversableFromIAS`). An index out of range ends the program.
     #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
     pub fn get<C: Context>(self, context: &C, index: u32) -> InstanceHandle<'_> {
         let message = format_args!("instance {index} is out of range: the structure has {}", self.len);
         check(index, self.len(), message);
@@ -112,6 +113,7 @@ impl TriangleVertices {
 
     /// How many triangles the geometry of a record has. A record out of range ends the program.
     #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
     pub fn triangles(self, sbt_gas_index: u32) -> u32 {
         self.counts.get(sbt_gas_index)
     }
@@ -121,6 +123,7 @@ impl TriangleVertices {
     /// (`optixGetTriangleVertexDataFromHandle`). For a triangle without area, which no ray meets, NaN or its vertices: the CPU
     /// says NaN, and a driver may. An index out of range ends the program.
     #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
     pub fn get<C: Context>(self, context: &C, sbt_gas_index: u32, primitive_index: u32) -> [Vec3; 3] {
         let count = self.triangles(sbt_gas_index);
         let message = format_args!("triangle {primitive_index} is out of range: record {sbt_gas_index} has {count}");

@@ -218,6 +218,7 @@ impl<F, K> Callables<F, K> {
     /// # Panics
     /// Ends the program if `index >= len`.
     #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
     pub fn get(self, index: u32) -> Callable<F, K> {
         let len = self.len;
         let message = format_args!("callable {index} is out of range: the table has {len}");

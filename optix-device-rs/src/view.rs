@@ -119,6 +119,7 @@ unsafe fn write<T: Element>(at: *mut T, value: T) {
 
 /// Where element `index` of `len` elements of type `T` is, in the memory that a view holds as `address`.
 #[inline(always)]
+#[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
 fn element<T>(what: &str, address: u64, index: u32, len: u32) -> *mut T {
     let message = format_args!("{what} index {index} is out of range: the buffer has {len} elements");
     let offset = u64::from(index) * size_of::<T>() as u64;
@@ -185,6 +186,7 @@ macro_rules! linear_view {
 
             /// The element at `index`. An index out of range ends the launch.
             #[inline(always)]
+            #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
             pub fn get(self, index: u32) -> T {
                 let at = element::<T>($what, self.address, index, self.len);
                 // SAFETY: in range, and `from_raw` promised `len` valid elements; otherwise no address at all.
@@ -196,6 +198,7 @@ macro_rules! linear_view {
             /// # Safety
             /// `index` is less than the length.
             #[inline(always)]
+            #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
             pub unsafe fn get_unchecked(self, index: u32) -> T {
                 if cfg!(debug_assertions) {
                     return self.get(index);
@@ -226,6 +229,7 @@ linear_view! {
 impl<T: Element> SliceMut<T> {
     /// Sets the element at `index`. An index out of range ends the launch.
     #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
     pub fn set(self, index: u32, value: T) {
         let at = element::<T>("SliceMut", self.address, index, self.len);
         // SAFETY: in range, and `from_raw` promised `len` valid elements; otherwise no address at all.
@@ -237,6 +241,7 @@ impl<T: Element> SliceMut<T> {
     /// # Safety
     /// `index` is less than the length.
     #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
     pub unsafe fn set_unchecked(self, index: u32, value: T) {
         if cfg!(debug_assertions) {
             return self.set(index, value);
@@ -293,6 +298,7 @@ impl<T: Element> SliceMut2d<T> {
     }
 
     #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
     fn at(self, at: UVec2) -> *mut T {
         let size = self.size();
         let message =
@@ -304,6 +310,7 @@ impl<T: Element> SliceMut2d<T> {
 
     /// The element in column `at.x` of row `at.y`. A place outside ends the launch.
     #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
     pub fn get(self, at: UVec2) -> T {
         // SAFETY: `at` is in range, and `from_raw` promised valid elements; otherwise no address at all.
         unsafe { read(self.at(at)) }
@@ -311,6 +318,7 @@ impl<T: Element> SliceMut2d<T> {
 
     /// Sets the element in column `at.x` of row `at.y`. A place outside ends the launch.
     #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
     pub fn set(self, at: UVec2, value: T) {
         // SAFETY: `at` is in range, and `from_raw` promised valid elements; otherwise no address at all.
         unsafe { write(self.at(at), value) }

@@ -17,7 +17,7 @@ use core::panic::Location;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec2, Vec3};
 use std::ffi::CString;
-use std::string::ToString;
+use std::format;
 
 /// The running program's frame.
 #[derive(Clone, Copy)]
@@ -71,22 +71,24 @@ fn each_word(payload: &Cell<WordBuffer>) -> &[Cell<u32>; MAX_PAYLOAD_WORDS] {
     unsafe { &*core::ptr::from_ref(payload).cast() }
 }
 
-/// Ends the program with this message unless `index < len`.
+/// Ends the program with this message and the place that asks unless `index < len`.
 #[inline(always)]
+#[track_caller]
 pub fn check(index: u32, len: u32, message: core::fmt::Arguments<'_>) {
     #[cold]
     #[inline(never)]
-    fn out_of_range(message: core::fmt::Arguments<'_>) -> ! {
-        end::end(End::Failed(message.to_string()))
+    fn out_of_range(message: core::fmt::Arguments<'_>, at: &Location<'_>) -> ! {
+        end::end(End::Failed(format!("{message}, at {at}")))
     }
     if index >= len {
-        out_of_range(message);
+        out_of_range(message, Location::caller());
     }
 }
 
 /// The place `offset` bytes into the memory of a view, if each index is below its length; otherwise ends the program with this
 /// message.
 #[inline(always)]
+#[track_caller]
 pub fn place_if<const N: usize>(
     in_range: [(u32, u32); N],
     view: u64,
