@@ -264,8 +264,14 @@ fn indices_out_of_range_end_launches() {
         return;
     }
     let cpu = Device::cpu().unwrap();
-    says(launch(&cpu, true), &["__raygen__", "index 29 is out of range", "29 elements, at ", "shaders/src/callables.rs:"]);
-    says(launch(&cpu, false), &["__raygen__", "callable 0 is out of range: the table has 0, at ", "shaders/src/callables.rs:"]);
+    says(
+        launch(&cpu, true),
+        &["__raygen__", "index 29 is out of range", "29 elements, at ", "shaders/src/callables.rs:"],
+    );
+    says(
+        launch(&cpu, false),
+        &["__raygen__", "callable 0 is out of range: the table has 0, at ", "shaders/src/callables.rs:"],
+    );
     if devices::optix(TEST).is_some() {
         // A failed launch takes its process's GPU context with it.
         for short in ["view", "table"] {
