@@ -3,13 +3,15 @@
 //!
 //! Programs are ordinary functions here, so they may catch what unwinds (`std::panic::catch_unwind`), and have destructors,
 //! which run meanwhile. Neither takes an end back: what ended the index is kept beside the unwinding, the first of several
-//! counts, and every later trace call, call, report and throw, and the return of the program, ends the index again. A
+//! counts, and every later trace call, call, report, throw and use of a view, and the return of the program, ends the index again. A
 //! destructor that runs while its program unwinds can't be ended again, since Rust ends the process where a destructor panics
 //! then; so its trace calls and calls run no program and give back zeros, as [`goes_on`] says.
 
 use super::ExceptionState;
+use super::reach::{self, Reach};
 use core::any::Any;
 use core::cell::{Cell, RefCell};
+use core::ptr::NonNull;
 use std::boxed::Box;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::string::{String, ToString};
@@ -34,6 +36,8 @@ struct Within {
     /// Whether the thread was unwinding when they began, as where a destructor launches.
     unwinding: bool,
     ended: bool,
+    /// The memory that they had until they ended.
+    reach: Option<NonNull<Reach>>,
 }
 
 std::thread_local! {
@@ -53,7 +57,7 @@ pub fn end(how: End) -> ! {
         (Some(Within { ended: true, .. }), _) => {}
         (Some(within), how) => {
             ENDS.with_borrow_mut(|ends| ends.push(how));
-            WITHIN.set(Some(Within { ended: true, ..within }));
+            WITHIN.set(Some(Within { ended: true, reach: reach::close(), ..within }));
         }
         (None, End::Failed(what)) => panic!("{what}"),
         (None, End::Thrown(exception)) => panic!("exception {} is thrown outside of a program", exception.code),
@@ -72,6 +76,13 @@ pub fn goes_on() -> bool {
     !within.ended && unwinding == within.unwinding
 }
 
+/// The memory of an index that has ended, where this is a destructor that runs while its program is unwound. Elsewhere in such
+/// an index, which a program caught, the index ends again.
+pub(super) fn closed() -> Option<NonNull<Reach>> {
+    goes_on();
+    WITHIN.get()?.reach
+}
+
 /// Runs programs of one launch index, and says what ended it, if it was not their return. A panic of their own ends it too.
 ///
 /// # Safety
@@ -79,10 +90,12 @@ pub fn goes_on() -> bool {
 /// index. (A program that could call this would run on after calls whose results nobody made.)
 pub unsafe fn catch<T>(programs: impl FnOnce() -> T) -> Result<T, End> {
     // Programs of another index may be on this thread already: one launches, or waits in a pool, which runs others meanwhile.
-    let around = WITHIN.replace(Some(Within { unwinding: panicking(), ended: false }));
+    let around = WITHIN.replace(Some(Within { unwinding: panicking(), ended: false, reach: None }));
     let result = catch_unwind(AssertUnwindSafe(programs));
-    let ended = WITHIN.replace(around).is_some_and(|within| within.ended);
-    let end = if ended { ENDS.with_borrow_mut(Vec::pop) } else { None };
+    let end = WITHIN.replace(around).filter(|within| within.ended).and_then(|within| {
+        reach::reopen(within.reach);
+        ENDS.with_borrow_mut(Vec::pop)
+    });
     match (result.map_err(words), end) {
         (Ok(result), None) => Ok(result),
         (Err(panic), None) => Err(End::Failed(panic)),

@@ -141,15 +141,31 @@ pub(crate) fn memory(handle: u64) -> NonNull<u8> {
     let running = RUNNING.get().map(|reach| unsafe { reach.as_ref() });
     match running.and_then(|reach| reach.0.get(handle)) {
         Some(memory) => memory,
-        None => not_held(running.is_some()),
+        None => not_held(handle, running.is_some()),
     }
+}
+
+/// Takes the memory from the programs of this thread, whose launch index has ended.
+pub(super) fn close() -> Option<NonNull<Reach>> {
+    RUNNING.take()
+}
+
+/// Gives it back, to the programs of the next launch index.
+pub(super) fn reopen(reach: Option<NonNull<Reach>>) {
+    RUNNING.set(reach);
 }
 
 #[cold]
 #[inline(never)]
 #[track_caller]
-fn not_held(running: bool) -> ! {
-    end::end(End::Failed(if running {
+fn not_held(handle: u64, running: bool) -> NonNull<u8> {
+    // Destructors that run while their program is unwound use views as ever.
+    // SAFETY: `enter` borrows the value until the programs of the launch index are left.
+    let closed = end::closed().map(|reach| unsafe { reach.as_ref() });
+    if let Some(memory) = closed.and_then(|reach| reach.0.get(handle)) {
+        return memory;
+    }
+    end::end(End::Failed(if running || closed.is_some() {
         "a view is used that this launch's parameters and records do not hold: it was kept from another launch; pass the buffer to \
          this one"
             .into()

@@ -30,7 +30,7 @@ macro_rules! may_throw {
             /// The pipeline says what its programs may throw: `throws: Fault`.
             ///
             /// On the CPU that is done by unwinding. A program that catches it (`catch_unwind`) takes nothing back: the index
-            /// ends at its next trace call, call, report or throw, or when it returns. Destructors run; what they trace or call
+            /// ends at its next trace call, call, report, throw or use of a view, or when it returns. Destructors run; what they trace or call
             /// runs no program and gives zeros, and one that throws or panics ends the process, as it does whenever Rust unwinds.
             #[inline(always)]
             #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
