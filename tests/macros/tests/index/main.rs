@@ -3,6 +3,7 @@
 //! `CONTRACTS=overwrite cargo test -p optix-macro-tests --test index` writes the page anew.
 
 mod device_functions;
+mod traits;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -103,6 +104,7 @@ fn page(rules: &[Rule], cases: &[Case]) -> String {
         );
     }
     page.push_str(&device_functions::section(&table("device_functions.tsv")));
+    page.push_str(&traits::section(&root(), &table("public_traits.tsv")));
     page.push_str(
         "\n## Rules without a test of this kind\n\nItems that the checklist says a compiler can check, and why no case \
          covers them.\n\n| rule | what holds | why not here |\n| --- | --- | --- |\n",
