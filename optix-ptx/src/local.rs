@@ -181,7 +181,7 @@ fn derived<'a>(
         "mov" | "cvta" | "add" | "sub" | "and" | "or" => is_wide && sources.iter().any(is_local),
         "selp" => is_wide && sources.iter().take(2).any(is_local),
         // The factors are an index and a size.
-        "mad" => sources.last().is_some_and(|source| is_local(&source)),
+        "mad" => sources.last().is_some_and(is_local),
         "shf" | "prmt" | "mul" => false,
         "ld" if instruction.op.starts_with("ld.param") => {
             let number = |name: &str| name.strip_prefix(function)?.strip_prefix("_param_")?.parse().ok();

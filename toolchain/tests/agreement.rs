@@ -9,6 +9,7 @@ mod common;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::{Mutex, PoisonError};
 
 /// What the registry has.
 const OF_REGISTRY: u32 = 71_001;
@@ -109,6 +110,9 @@ impl Project {
     }
 
     fn cargo(&self, args: &[&str]) -> Output {
+        // The programs have one name, and one folder.
+        static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+        let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
         let mut command = Command::new(env!("CARGO"));
         command.args(args).current_dir(&self.at).env("CARGO_TERM_COLOR", "never").env("CARGO_NET_OFFLINE", "true");
         for name in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "OPTIX_RUSTC"] {

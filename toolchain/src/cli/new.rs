@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::process::ExitCode;
 
+use optix_toolchain::json::Json;
+
 use super::{Failure, Outcome};
 
 /// The files of a new project; `{{..}}` is replaced.
@@ -66,8 +68,7 @@ fn check_name(name: &str) -> Result<(), Failure> {
 fn fill(template: &str, name: &str, toolchain: &Path) -> String {
     let checkout = toolchain.parent().filter(|root| root.join("optix-host/Cargo.toml").is_file());
     let dependency = |folder: &str| match checkout {
-        // A literal string, in which a backslash is itself.
-        Some(root) => format!("path = '{}'", root.join(folder).display()),
+        Some(root) => format!("path = {}", quoted(&root.join(folder).to_string_lossy())),
         None => format!("version = \"{}\"", env!("CARGO_PKG_VERSION")),
     };
     template
@@ -77,6 +78,11 @@ fn fill(template: &str, name: &str, toolchain: &Path) -> String {
         .replace("{{optix-device-rs}}", &dependency("optix-device-rs"))
         .replace("{{optix-host}}", &dependency("optix-host"))
         .replace("{{optix-toolchain}}", &dependency("toolchain"))
+}
+
+/// A TOML string.
+fn quoted(text: &str) -> String {
+    Json::String(text.to_string()).to_string()
 }
 
 #[cfg(test)]
@@ -100,6 +106,7 @@ mod tests {
             assert!(!text.contains("{{"), "{file}");
         }
         let manifest = fill(FILES[0].1, "my-tracer", Path::new("/nonexistent/toolchain"));
-        assert!(manifest.contains("version = \"0.1.0\"") && !manifest.contains("path = '"));
+        assert!(manifest.contains("version = \"0.1.0\"") && !manifest.contains("path = \""));
+        assert_eq!(quoted(r#"C:\it's "here""#), r#""C:\\it's \"here\"""#);
     }
 }

@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use optix_ptx::{Function, Instruction, Module, Statement, operands};
+use optix_ptx::{Function, Instruction, Module, Parts, Statement, operands};
 
 /// An instruction that OptiX does not run as it is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -95,13 +95,16 @@ pub fn forbidden(module: &Module<'_>) -> Vec<Forbidden> {
         add("the module", variable.name, Why::SharedMemory);
     }
     for function in module.defined() {
+        let mut before = None;
         for statement in function.statements() {
+            let is_ours = before.is_some_and(reads_exception_detail);
+            before = Some(statement);
             match statement {
                 Statement::Directive(directive) if directive.split_whitespace().next() == Some(".shared") => {
                     add(function.name, directive, Why::SharedMemory);
                 }
                 Statement::Instruction(instruction) => {
-                    if let Some(why) = of_operation(instruction) {
+                    if let Some(why) = of_operation(instruction).filter(|why| *why != Why::Fence || !is_ours) {
                         add(function.name, instruction.op, why);
                     }
                     for (register, why) in registers(function, instruction) {
@@ -116,6 +119,16 @@ pub fn forbidden(module: &Module<'_>) -> Vec<Forbidden> {
         add(function.name, atomic.op, Why::LocalAtomic);
     }
     found
+}
+
+/// Whether a statement reads a detail of an exception. The device crate has a fence behind it, for the driver's compiler and
+/// not for memory.
+fn reads_exception_detail(statement: &Statement<'_>) -> bool {
+    let call = match statement {
+        Statement::Instruction(instruction) => Parts::of(instruction),
+        _ => None,
+    };
+    call.is_some_and(|call| call.function.starts_with("_optix_get_exception_detail_"))
 }
 
 fn of_operation(instruction: &Instruction<'_>) -> Option<Why> {
@@ -215,6 +228,7 @@ mod tests {
             ("activemask.b32 %r1;", "activemask.b32", Why::Neighbours),
             ("fence.sc.sys;", "fence.sc.sys", Why::Fence),
             ("membar.gl;", "membar.gl", Why::Fence),
+            ("call (%r9), _optix_get_exception_code, (); membar.cta;", "membar.cta", Why::Fence),
             ("mov.u32 %r1, %tid.x;", "%tid.x", Why::ReplacedRegister),
             ("mad.lo.u32 %r1, %ctaid.x, %ntid.x, %r2;", "%ctaid.x", Why::ReplacedRegister),
             ("mov.u32 %r1, %laneid;", "%laneid", Why::Neighbours),
@@ -232,6 +246,7 @@ mod tests {
     #[test]
     fn what_is_allowed_is_not() {
         for line in [
+            "call (%r9), _optix_get_exception_detail_0, (); membar.cta;",
             "mov.u64 %rd1, %clock64;",
             "mov.u64 %rd1, %globaltimer;",
             "atom.global.add.u32 %r1, [%rd1], 1;",

@@ -123,7 +123,9 @@ fn only_shapes(json: &mut gltf::json::Root, left_out: &mut LeftOut) {
             }
             positions.extend(primitive.attributes.get(&position).map(Index::value));
             for index in primitive.attributes.values().chain(&primitive.indices) {
-                used.get_mut(index.value()).map(|used| *used = true);
+                if let Some(used) = used.get_mut(index.value()) {
+                    *used = true;
+                }
             }
         }
     }
