@@ -89,22 +89,24 @@ impl<P: PipelineType> Pipeline<P> {
 
     /// Whether this pipeline's programs may use what its parameters or a record hold: its table and its flags cover that.
     fn check(&self, holder: &str, kept: &Kept) -> Result<(), String> {
-        let made = match kept {
-            Kept::Traced(world) => world.scene::<AccelShared>().map(|accel| (accel.scene, accel.slots > self.slots)),
+        let (made, more) = match kept {
+            Kept::Traced(world) => {
+                (world.scene::<AccelShared>().map(|accel| (accel.scene, accel.slots > self.slots)), "materials")
+            }
             Kept::Callables(_, shared) => {
-                shared.downcast_ref::<CallableShared>().map(|table| (table.scene, table.end > self.callables))
+                let table = shared.downcast_ref::<CallableShared>();
+                (table.map(|table| (table.scene, table.end > self.callables)), "callables")
             }
             Kept::Memory(_) | Kept::Read(_) => return Ok(()),
         };
-        let kind = kept.kind();
         match made {
+            None => return Err(format!("{holder} {} that no scene made", kept.kind())),
             Some((scene, _)) if scene != self.scene => {
-                return Err(format!("{holder} {kind} of another scene than the pipeline's"));
+                return Err(format!("{holder} {} of another scene than the pipeline's", kept.kind()));
             }
-            None => return Err(format!("{holder} {kind} that no scene made")),
             Some((_, true)) => {
                 return Err(format!(
-                    "{holder} {kind} that needs more records than the scene had when the pipeline was built: build the pipeline again"
+                    "the scene got more {more} after the pipeline was built: build the pipeline again"
                 ));
             }
             Some((_, false)) => {}

@@ -39,7 +39,7 @@ fn here() -> usize {
 }
 
 /// The lowest address of this thread's stack, and its size in bytes.
-#[cfg(target_os = "linux")]
+#[cfg(all(target_os = "linux", not(miri)))]
 fn bounds() -> (usize, usize) {
     let mut attributes = core::mem::MaybeUninit::<libc::pthread_attr_t>::uninit();
     let (mut low, mut size) = (core::ptr::null_mut(), 0);
@@ -54,7 +54,7 @@ fn bounds() -> (usize, usize) {
     if known { (low.addr(), size) } else { assumed() }
 }
 
-#[cfg(not(target_os = "linux"))]
+#[cfg(any(not(target_os = "linux"), miri))]
 fn bounds() -> (usize, usize) {
     assumed()
 }
