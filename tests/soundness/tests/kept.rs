@@ -20,15 +20,8 @@ enum What {
     Record,
 }
 
-const ALL: [What; 7] = [
-    What::Slice,
-    What::SliceMut,
-    What::SliceMut2d,
-    What::Traversable,
-    What::Instances,
-    What::Triangles,
-    What::Record,
-];
+const ALL: [What; 7] =
+    [What::Slice, What::SliceMut, What::SliceMut2d, What::Traversable, What::Instances, What::Triangles, What::Record];
 
 #[derive(Clone, Copy)]
 enum Kept {
