@@ -1,11 +1,16 @@
 //! Maths that shaders need and `core` does not have; one meaning on both machines.
 
 pub mod fast;
+#[cfg(target_arch = "nvptx64")]
+mod host_only;
+
+#[cfg(target_arch = "nvptx64")]
+pub use host_only::{HostOnly, HostOnlyDouble};
 
 use glam::Vec3;
 
 /// Functions of `f32` that the standard library has and `core` has not, under the same names. Those that are not here, such as
-/// `powi`, are found by a check for the host, which knows the standard library, and not by the compiler for the device.
+/// `powi`, are found by a check for the host, which knows the standard library; the compiler for the device says what to use.
 ///
 /// On the host they are the standard library's, on the device the toolchain's, in `f32` arithmetic. Both are within the ulps
 /// (units of the last place) of the true value that docs/maths.md states; [`fast`] has less precise ones.

@@ -5,6 +5,8 @@ pub use crate::attributes::{Attributes, Custom, Triangles};
 pub use crate::callable::{Callable, Callables, Continuation, Direct};
 pub use crate::data::DeviceData;
 pub use crate::exception::{Raised, UserException};
+#[cfg(target_arch = "nvptx64")]
+pub use crate::math::{HostOnly, HostOnlyDouble};
 pub use crate::math::{Math, Onb};
 pub use crate::params::LaunchParams;
 pub use crate::payload::Payload;

@@ -100,8 +100,8 @@ pub fn must_copy(model: &Struct) -> (TokenStream, TokenStream) {
 
 /// [`copy_bound`], and [`view_bounds`].
 pub fn struct_bounds(model: &Struct) -> TokenStream {
-    let (copy, views) = (copy_bound(&model.ident), view_bounds(model, &device_crate()));
-    quote!(#copy, #views)
+    let views = view_bounds(model, &device_crate());
+    quote!(where #views)
 }
 
 /// What `device_data` asserts once, of each view: so nothing that is made of the struct reports it again. With a lifetime,
@@ -142,18 +142,21 @@ pub struct Twin {
 pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
     let (krate, ident, vis) = (&device_crate(), &model.ident, &model.vis);
     if !model.has_views() {
-        let copy = copy_bound(ident);
+        let fields = model.fields.iter().map(|field| &field.member);
+        let copies: Vec<_> = fields.map(|member| quote!(self.#member)).collect();
+        // Not `*self`, which would report a struct that is not `Copy` again.
+        let copy = construct(ident, &model.fields, &copies);
         let items = block(quote! {
             // SAFETY: no field is a view, and each is plain itself.
             #[automatically_derived]
-            unsafe impl #krate::data::Plain for #ident #copy {}
+            unsafe impl #krate::data::Plain for #ident {}
             #[cfg(not(target_arch = "nvptx64"))]
             #[automatically_derived]
-            unsafe impl #krate::host::Twin for #ident #copy {
+            unsafe impl #krate::host::Twin for #ident {
                 type Device = #ident;
                 #[inline]
                 fn lower(&self, _: &mut #krate::host::KeepAlive) -> #ident {
-                    *self
+                    #copy
                 }
             }
         });
