@@ -6,8 +6,14 @@ use optix_host::{Aabb, Boxes, Device, Pipeline, Scene};
 use optix_tests::{devices, probe::PTX};
 use probe_shaders::reports::{ADDED, BEGIN, Cell, ReportFrameHost, Reports};
 
-/// Launches, and gives counts, what any-hit programs found, and times.
-fn run(device: &Device, time: f32) -> (Vec<[u32; 2]>, Vec<[u32; 2]>, Vec<[f32; 4]>) {
+/// What a launch wrote.
+struct Written {
+    counts: Vec<[u32; 2]>,
+    found: Vec<[u32; 2]>,
+    times: Vec<[f32; 4]>,
+}
+
+fn run(device: &Device, time: f32) -> Written {
     let mut scene = Scene::<Reports>::new(device);
     let cell = scene.material(Cell {}).unwrap();
     let unit = scene.geometry(Boxes(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }])).unwrap();
@@ -17,13 +23,13 @@ fn run(device: &Device, time: f32) -> (Vec<[u32; 2]>, Vec<[u32; 2]>, Vec<[f32; 4
     let times = device.buffer(&[[-1.0; 4]; 4]).unwrap();
     let frame = ReportFrameHost { counts: counts.clone(), found: found.clone(), times: times.clone(), world, time };
     pipeline.launch(&frame, [4, 1, 1]).unwrap().wait().unwrap();
-    (counts.read().unwrap(), found.read().unwrap(), times.read().unwrap())
+    Written { counts: counts.read().unwrap(), found: found.read().unwrap(), times: times.read().unwrap() }
 }
 
 #[test]
 fn what_an_intersection_program_returns_is_stored_after_its_reports() {
     for device in devices::all("reports") {
-        let (counts, found, _) = run(&device, 0.0);
+        let Written { counts, found, .. } = run(&device, 0.0);
         // Each report's any-hit program goes on from what the last one left, whether its hit counts or not; the intersection
         // program goes on from what it was given when it began, and its result is stored over theirs.
         assert_eq!(counts, [[BEGIN + ADDED, BEGIN + 2]; 4], "{}", device.description());
@@ -35,7 +41,7 @@ fn what_an_intersection_program_returns_is_stored_after_its_reports() {
 fn rays_have_no_time_where_nothing_moves() {
     for device in devices::all("ray times") {
         for time in [0.0, 0.25, -3.0, f32::MAX] {
-            let (_, _, times) = run(&device, time);
+            let Written { times, .. } = run(&device, time);
             let [hit, missed] = [[0.0, 0.0, 0.0, -1.0], [0.0, 0.0, -1.0, 0.0]];
             assert_eq!(times, [hit, missed, hit, missed], "{time} on {}", device.description());
         }

@@ -213,7 +213,7 @@ impl Frame {
     #[inline(always)]
     pub fn boxes(&self, bounds: &Aabb, slack: f32) -> Option<BoxRay> {
         let reach = self.reach(bounds);
-        if !(reach <= MAX_REACH) {
+        if reach > MAX_REACH {
             return self.far_boxes(bounds, slack);
         }
         let margin = (reach * MARGIN * slack).min(2.0 * reach) + 64.0 * f32::MIN_POSITIVE;

@@ -28,8 +28,11 @@ struct Script {
     report: (f32, u32),
     callable: Called,
     /// What the ray-generation program asks, of the structure with this handle.
-    asks: fn(Cx, u64),
+    asks: Asks,
 }
+
+/// Given the program's context and the structure's handle.
+type Asks = fn(Cx, u64);
 
 /// What the ray-generation program calls.
 #[derive(Clone, Copy, PartialEq)]
@@ -341,7 +344,7 @@ fn questions_without_an_answer() {
         assert!(message.contains("kept from another launch") && message.contains(rules::HELD.guide), "{message}");
         // The triangle that is there.
         // SAFETY: as above.
-        let asks: fn(Cx, u64) = |cx, gas| unsafe {
+        let asks: Asks = |cx, gas| unsafe {
             cx.triangle_vertices_from_handle(gas, 0, 0);
         };
         assert_eq!(run(false, checked, Script { asks, ..lawful(false) }), None);
@@ -349,7 +352,7 @@ fn questions_without_an_answer() {
 }
 
 /// Questions of a ray-generation program, and the rules that they break.
-fn unsafe_asks() -> [(&'static Rule, fn(Cx, u64)); 10] {
+fn unsafe_asks() -> [(&'static Rule, Asks); 10] {
     // SAFETY: the executor answers none of these, and says why.
     unsafe {
         [
