@@ -321,10 +321,13 @@ pub fn start(island: &Island, triangle: &Triangle, primitive: u32, [b1, b2]: [f3
 /// A start between two points of object space.
 pub fn aimed(island: &Island, at: DVec3, from: DVec3, primitive: u32) -> Start {
     let (target, origin) = (island.to_world(at), island.to_world(from).as_vec3());
+    let direction = (target - origin.as_dvec3()).as_vec3();
+    // Far away the origin may be rounded to the target; a ray without direction is undefined.
+    let direction = if direction == Vec3::ZERO { Vec3::X } else { direction };
     Start {
         origin: origin.to_array(),
         primitive,
-        direction: (target - origin.as_dvec3()).as_vec3().to_array(),
+        direction: direction.to_array(),
         seed: 0,
         leaving: [0.0; 3],
         other: NONE,

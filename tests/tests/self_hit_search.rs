@@ -6,7 +6,7 @@
 //! triangle test alone counts. `OPTIX_TEST_SEARCH=120 cargo test --release -p optix-tests --test
 //! self_hit_search -- --nocapture` searches for two minutes on each machine; by default it is a few seconds.
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, DVec3, Vec3};
 use optix_host::{BackendKind, Device};
 use optix_tests::devices;
 use optix_tests::spawn::{
@@ -90,7 +90,7 @@ impl Candidate {
         let start = start(island, &self.triangle, primitive, self.weights, self.from);
         // Given in object space, as the triangle is.
         let way = self.leaving.as_dvec3();
-        let world = (island.to_world(way) - island.to_world(way * 0.0)).normalize_or(way).as_vec3();
+        let world = (island.to_world(way) - island.to_world(way * 0.0)).normalize_or(DVec3::X).as_vec3();
         Start { leaving: world.to_array(), ..start }
     }
 }

@@ -106,3 +106,49 @@ fn concatenate(a: [[f32; 4]; 3], b: [[f32; 4]; 3]) -> [[f32; 4]; 3] {
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Pcg32;
+    use crate::spawn::gamma;
+
+    /// The arithmetic of a device that applies one map after the other, against `f64`.
+    #[test]
+    fn sizes_cover_the_rounding_of_composed_maps() {
+        let mut rng = Pcg32::new(3, 1);
+        let mut worst = [0.0f64; 5];
+        for _ in 0..200_000 {
+            let levels = 1 + rng.next_u32() as usize % 4;
+            let mut number = |range: f32| {
+                let fraction = 2.0 * rng.next_f32() - 1.0;
+                fraction * f32::exp2(range * (2.0 * rng.next_f32() - 1.0))
+            };
+            let maps: [Transform; 4] = core::array::from_fn(|_| {
+                let mut row = || [number(3.0), number(3.0), number(3.0), number(12.0)];
+                Transform::from_rows([row(), row(), row()])
+            });
+            let x = Vec3::new(number(12.0), number(12.0), number(12.0));
+            let n = Vec3::new(number(1.0), number(1.0), number(1.0)).normalize();
+            let maps = &maps[..levels];
+
+            let one_by_one = maps.iter().fold(x, |x, map| map.point(x));
+            let composed = maps[1..].iter().fold(maps[0], |all, map| map.after(&all));
+            let exact = maps.iter().fold(x.to_array().map(f64::from), |x, map| {
+                map.rows.map(|r| (0..3).map(|k| f64::from(r[k]) * x[k]).sum::<f64>() + f64::from(r[3]))
+            });
+
+            let height = |p: [f64; 3]| (0..3).map(|k| f64::from(n[k]) * p[k]).sum::<f64>();
+            let of = |p: Vec3| (height(p.to_array().map(f64::from)) - height(exact)).abs();
+            let (terms, translation) = composed.magnitudes_along(n.abs());
+            // One more than of a hit point, where the last addition cancels.
+            let bound = f64::from(terms.dot(x.abs()) * gamma(8) + translation * gamma(3));
+            // Both at once, as in the bound of a hit point.
+            let share = (of(one_by_one) + of(composed.point(x))) / bound;
+            worst[levels] = worst[levels].max(share);
+        }
+        std::println!("shares of the bound, by levels: {:?}", &worst[1..]);
+        assert!(worst.iter().all(|&share| share < 1.0), "{worst:?}");
+        assert!(worst[1..].iter().all(|&share| share > 0.05), "{worst:?}");
+    }
+}
