@@ -188,7 +188,7 @@ impl Shaders {
     }
 
     /// Compiles it from any other program. `area` is a folder for intermediate files: calls with the same one share
-    /// the work that is common to them. Cargo decides what there is to do; nothing changed costs about 0.3 s.
+    /// the work that is common to them. Cargo decides what there is to do; nothing changed costs about 0.6 s.
     ///
     /// ```no_run
     /// let built = optix_toolchain::Shaders::new("shaders").compile_in("target/optix")?;

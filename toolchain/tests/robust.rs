@@ -153,3 +153,16 @@ fn what_the_code_generator_can_not_do_is_named() {
     let Error::Missing(culprit) = &error else { panic!("{error}") };
     assert_eq!((&culprit.what, culprit.at.function.as_str()), (&Missing::WideConversion, "compute"), "{error}");
 }
+
+#[test]
+fn a_crate_may_be_named_like_what_is_in_it() {
+    if !common::can_compile("names") {
+        return;
+    }
+    let names = "pub fn compute(x: u32) -> u32 { x }\npub fn camera() {}\npub mod heap {}\npub mod core {}\npub fn optix() {}\n";
+    let source = format!("{}\n{names}", SHADERS.replace("core::", "::core::"));
+    for name in ["camera", "heap", "compute", "r-type"] {
+        let dir = common::folder(&format!("robust-names-{name}"));
+        compile(&Shaders::new(write(dir.join(name), &source, &[]))).expect(name);
+    }
+}
