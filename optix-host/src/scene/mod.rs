@@ -1,4 +1,4 @@
-//! Scenes: geometry, materials and the acceleration structures that bring them together. Knows no backend.
+//! Scenes: geometry, materials and the acceleration structures that bring them together, built through the trait `Backend`.
 
 mod accel;
 mod callable;
