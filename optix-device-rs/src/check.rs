@@ -92,9 +92,6 @@ returned! {
         "it returns a `{R}FromIntersection` if fields of `{R}` say `#[payload(write(intersection, ..))]`, and nothing if none does";
 }
 
-/// In the place of a payload field that a party does not read. It can't be moved out of where it is, and has no methods.
-pub struct NotReadHere;
-
 /// What a program without a payload in its result leaves behind.
 #[diagnostic::on_unimplemented(
     message = "a program does not return `{Self}`, which its payload says it writes",

@@ -4,7 +4,7 @@ use super::model::{Party, Payload, Transport};
 use crate::data::{docs_or, touch};
 use crate::shape::Struct;
 use crate::support::{block, device_crate, moved, place_of};
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 
 /// `RadianceAtMiss` and the like.
@@ -220,33 +220,30 @@ fn part_struct(payload: &Payload, part: &Part) -> TokenStream {
 }
 
 /// The fields that a party does not read, for the message that their use gives: what it receives leads there by `Deref`, which
-/// the compiler follows for fields that it does not find.
+/// the compiler follows for fields that it does not find. They are private in a module of their own, so that nothing reads them,
+/// and the name of their struct says why.
 fn unread(payload: &Payload, part: &Part) -> Option<TokenStream> {
     let shape = &payload.shape;
     let missing: Vec<_> = (0..shape.fields.len()).filter(|i| !part.fields.contains(i)).collect();
     if !part.reads || missing.is_empty() {
         return None;
     }
-    let (krate, ident, name, keyword) = (&device_crate(), &part.ident, shape.name(), part.party.keyword());
-    let unread = format_ident!("{}NotAt{}", name, part.party.suffix());
+    let (ident, name, keyword) = (&part.ident, shape.name(), part.party.keyword());
+    let (first, rest) = keyword.split_at(1);
+    let unread = format_ident!("{}FieldsWithoutRead{}{}", name, first.to_uppercase(), rest);
+    let module = format_ident!("__{}_without_read_{}", name.to_lowercase(), keyword);
     let members: Vec<_> = missing.iter().map(|&i| &shape.fields[i].member).collect();
-    // The macro's own use of them is not reported.
-    let quiet: Vec<_> = members.iter().map(|member| moved(member, Span::call_site())).collect();
-    let notes = missing.iter().map(|&i| {
-        let field = shape.fields[i].name();
-        let phrase = part.party.phrase();
-        format!("{phrase} does not read `{field}`: add `{keyword}` to `read(..)` of that field in `{name}`")
-    });
     Some(quote! {
-        pub struct #unread {
-            #(#[deprecated(note = #notes)] pub #members: #krate::check::NotReadHere,)*
+        mod #module {
+            pub struct #unread { #(#members: (),)* }
+            pub static FIELDS: #unread = #unread { #(#members: ()),* };
         }
         #[automatically_derived]
         impl __core::ops::Deref for #ident {
-            type Target = #unread;
+            type Target = #module::#unread;
             #[inline(always)]
-            fn deref(&self) -> &#unread {
-                &#unread { #(#quiet: #krate::check::NotReadHere),* }
+            fn deref(&self) -> &#module::#unread {
+                &#module::FIELDS
             }
         }
     })
