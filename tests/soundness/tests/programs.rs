@@ -7,12 +7,15 @@ use optix_host::{Aabb, Boxes, Device, Error, Pipeline, Scene, TriangleMesh, glam
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+/// What the table of callables takes and returns.
+type Pick = fn(u32, f64) -> (u32, bool);
+
 #[launch_params]
 pub struct Frame {
     pub out: SliceMut<u32>,
     pub world: Traversable,
     pub twice: Callable<fn(Slice<u32>) -> u32>,
-    pub table: Callables<fn(u32, f64) -> (u32, bool)>,
+    pub table: Callables<Pick>,
     pub mode: u32,
 }
 
@@ -59,9 +62,11 @@ pub enum Fault {
     Plain,
 }
 
+type Inner = Box<dyn Fn() -> Result<(), Error>>;
+
 thread_local! {
     /// A launch that a program makes.
-    static INNER: RefCell<Option<Box<dyn Fn() -> Result<(), Error>>>> = const { RefCell::new(None) };
+    static INNER: RefCell<Option<Inner>> = const { RefCell::new(None) };
 }
 
 const DOWN: Vec3 = Vec3::NEG_Z;
