@@ -92,6 +92,25 @@ returned! {
         "it returns a `{R}FromIntersection` if fields of `{R}` say `#[payload(write(intersection, ..))]`, and nothing if none does";
 }
 
+/// A place is of this type, and not only of one that leads to it by `Deref`: what a user's type is called may mean another type
+/// where a macro writes it again.
+#[inline(always)]
+pub const fn same<T>(_: *const T, _: core::marker::PhantomData<T>) {}
+
+/// The codes of an exception are different.
+#[track_caller]
+pub const fn codes(codes: &[(u32, &str)]) {
+    let mut i = 0;
+    while i < codes.len() {
+        let mut k = 0;
+        while k < i {
+            assert!(codes[i].0 != codes[k].0, "two variants of an exception have one code: say other numbers");
+            k += 1;
+        }
+        i += 1;
+    }
+}
+
 /// What a program without a payload in its result leaves behind.
 #[diagnostic::on_unimplemented(
     message = "a program does not return `{Self}`, which its payload says it writes",

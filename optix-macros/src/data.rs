@@ -40,9 +40,11 @@ pub fn device_data(model: &Struct, what: &str) -> TokenStream {
         } else {
             quote_spanned!(span=> <#ty as #krate::data::Plain>::write_plain)
         };
+        let same = quote_spanned!(span=> #krate::check::same);
         quote! {{
             const __AT: __core::primitive::usize = __core::mem::offset_of!(#ident, #member);
             let __field = self.#member;
+            #same(&raw const __field, __core::marker::PhantomData::<#ty>);
             #write(&__field, &mut __bytes[__AT..__AT + __core::mem::size_of::<#ty>()]);
         }}
     });

@@ -20,9 +20,11 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
         let span = place_of(ty);
         let krate = moved(krate, span);
         let write = quote_spanned!(span=> <#ty as #krate::view::Element>::write_element);
+        let same = quote_spanned!(span=> #krate::check::same);
         quote! {{
             const __AT: __core::primitive::usize = __core::mem::offset_of!(#ident, #member);
             let __field = self.#member;
+            #same(&raw const __field, __core::marker::PhantomData::<#ty>);
             #write(&__field, &mut __bytes[__AT..__AT + __core::mem::size_of::<#ty>()]);
         }}
     });

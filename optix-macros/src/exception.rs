@@ -105,8 +105,12 @@ fn emit(ident: &Ident, repr: &Repr, variants: &[&Variant]) -> TokenStream {
         decode.push(quote!(#code => __core::option::Option::Some(Self::#variant_ident { #(#loads),* })));
         most = quote!(#krate::check::larger(#most, #words));
     }
+    let span = place_of(ident);
+    let there = moved(krate, span);
+    let codes = quote_spanned!(span=> const _: () = #there::check::codes(&[#(#names),*]););
     block(quote! {
             #consts
+            #codes
             // SAFETY: `check::exception` has looked at every variant.
             #[automatically_derived]
             unsafe impl #krate::exception::UserException for #ident #copy {

@@ -181,6 +181,8 @@ fn view(model: &Struct) -> TokenStream {
             #[inline(always)]
             #[must_use]
             #vis fn #member(self) -> #ty {
+                // `Self` is another type here than in the struct, where a macro of the user's may hide it.
+                let _: fn(&#ident) -> *const #ty = |__params| &raw const __params.#member;
                 // SAFETY: the struct has this field at this offset.
                 unsafe { #load(self.__base) }
             }

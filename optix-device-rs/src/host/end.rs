@@ -47,12 +47,26 @@ std::thread_local! {
     static ENDS: RefCell<Vec<End>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Ends the launch index whose program runs on this thread. No panic hook runs.
+/// Ends the launch index whose program runs on this thread: the launch fails with these words. No panic hook runs.
 ///
 /// # Panics
-/// With the message where no program runs.
+/// With the words where no program runs.
 #[cold]
-pub fn end(how: End) -> ! {
+pub fn fail(what: String) -> ! {
+    end(End::Failed(what))
+}
+
+/// Ends the launch index whose program runs on this thread by an exception. No panic hook runs.
+///
+/// # Safety
+/// The code is negative, or the pipeline's exception type stored the details of a variant with this code
+/// ([`UserException::throw`](crate::exception::UserException::throw)): the exception program takes views out of them.
+#[cold]
+pub unsafe fn throw(exception: ExceptionState) -> ! {
+    end(End::Thrown(exception))
+}
+
+fn end(how: End) -> ! {
     match (WITHIN.get(), how) {
         (Some(Within { ended: true, .. }), _) => {}
         (Some(within), how) => {
@@ -66,14 +80,21 @@ pub fn end(how: End) -> ! {
 }
 
 /// Whether a device function does what it is asked to. Where the launch index has ended and a program caught that, the index
-/// ends again; where this is a destructor that runs while its program is unwound, the answer is no, and there is nothing to do.
+/// ends again; where this is a destructor that runs while its program is unwound, the answer is no, and there is nothing to do;
+/// if it is unwound by a panic of its own, which it may catch, the index has ended by that.
 pub fn goes_on() -> bool {
     let Some(within) = WITHIN.get() else { return true };
-    let unwinding = panicking();
-    if within.ended && !unwinding {
-        resume_unwind(Box::new(Unwinding));
+    let unwound = panicking() != within.unwinding;
+    match (within.ended, unwound) {
+        (true, false) => resume_unwind(Box::new(Unwinding)),
+        (false, true) => {
+            let what = "a destructor traces, calls or uses a view while its program panics".to_string();
+            ENDS.with_borrow_mut(|ends| ends.push(End::Failed(what)));
+            WITHIN.set(Some(Within { ended: true, reach: reach::close(), ..within }));
+        }
+        (true, true) | (false, false) => {}
     }
-    !within.ended && unwinding == within.unwinding
+    !within.ended && !unwound
 }
 
 /// The memory of an index that has ended, where this is a destructor that runs while its program is unwound. Elsewhere in such

@@ -4,7 +4,7 @@
 //! So a program that hides a view where a later program finds it, in a variable of its thread say, has hidden a number. A
 //! launch that keeps the memory alive knows the number, and any other ends with an error that says so.
 
-use super::end::{self, End};
+use super::end;
 use core::cell::Cell;
 use core::ptr::NonNull;
 use std::sync::{Mutex, PoisonError};
@@ -120,7 +120,11 @@ impl Reach {
     }
 
     /// Runs programs of the launch that keeps this memory.
-    pub fn enter<R>(&self, programs: impl FnOnce() -> R) -> R {
+    ///
+    /// # Safety
+    /// The caller is an executor, and not a program; the value lives until the launch index is over, with all that
+    /// [`end::catch`](super::end::catch) does for it.
+    pub unsafe fn enter<R>(&self, programs: impl FnOnce() -> R) -> R {
         struct Leave(Option<NonNull<Reach>>);
         impl Drop for Leave {
             fn drop(&mut self) {
@@ -165,13 +169,13 @@ fn not_held(handle: u64, running: bool) -> NonNull<u8> {
     if let Some(memory) = closed.and_then(|reach| reach.0.get(handle)) {
         return memory;
     }
-    end::end(End::Failed(if running || closed.is_some() {
+    end::fail(if running || closed.is_some() {
         "a view is used that this launch's parameters and records do not hold: it was kept from another launch; pass the buffer to \
          this one"
             .into()
     } else {
         "a view of device memory is used outside of a launch: read the buffer with `Buffer::read`".into()
-    }))
+    })
 }
 
 #[cfg(test)]
@@ -182,6 +186,11 @@ mod tests {
     fn ends(number: u64) -> std::string::String {
         let panic = std::panic::catch_unwind(|| memory(number)).unwrap_err();
         *panic.downcast().unwrap()
+    }
+
+    fn within(reach: &Reach, programs: impl FnOnce()) {
+        // SAFETY: this is no program, and the values of these tests outlive the calls.
+        unsafe { reach.enter(programs) }
     }
 
     #[test]
@@ -208,18 +217,18 @@ mod tests {
         }
         assert!(ends(1).contains("outside of a launch"));
         let (number, foreign) = (mine.number(), other.number());
-        reach.enter(|| {
+        within(&reach, || {
             assert_eq!(memory(number), at);
             for stale in [0, foreign, number + (1 << 32), u64::MAX] {
                 assert!(ends(stale).contains("kept from another launch"), "{stale:x}");
             }
-            inner.enter(|| {
+            within(&inner, || {
                 assert_eq!(memory(foreign), at);
                 assert!(ends(number).contains("kept from another launch"));
             });
             assert_eq!(memory(number), at);
         });
-        let _ = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| reach.enter(|| panic!("a program"))));
+        let _ = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| within(&reach, || panic!("a program"))));
         assert!(ends(number).contains("outside of a launch"));
     }
 }

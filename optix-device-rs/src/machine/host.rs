@@ -3,7 +3,7 @@
 use super::TraceCall;
 use crate::callable::Signature;
 use crate::exception::MAX_DETAILS;
-use crate::host::end::{self, End};
+use crate::host::end;
 use crate::host::{CallableCall, ExceptionState, Frame};
 use crate::params::LaunchParams;
 use crate::program::Transform;
@@ -78,7 +78,7 @@ pub fn check(index: u32, len: u32, message: core::fmt::Arguments<'_>) {
     #[cold]
     #[inline(never)]
     fn out_of_range(message: core::fmt::Arguments<'_>, at: &Location<'_>) -> ! {
-        end::end(End::Failed(format!("{message}, at {at}")))
+        end::fail(format!("{message}, at {at}"))
     }
     if index >= len {
         out_of_range(message, Location::caller());
@@ -381,7 +381,8 @@ impl Cx {
     pub fn throw<const CODE: u32>(&self, _count: usize, details: &[u32; MAX_DETAILS]) -> ! {
         let at = Location::caller();
         let line = CString::new(std::format!("{}:{}", at.file(), at.line())).ok();
-        end::end(End::Thrown(ExceptionState { code: CODE.cast_signed(), details: *details, line }))
+        // SAFETY: `Throw`, which the context makes, is told code and details by an exception of the pipeline's type.
+        unsafe { end::throw(ExceptionState { code: CODE.cast_signed(), details: *details, line }) }
     }
     #[inline(always)]
     pub fn exception_code(&self) -> i32 {

@@ -11,7 +11,7 @@ use core::cell::Cell;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec3};
 use optix_device_rs::exception::TRACE_DEPTH_EXCEEDED;
-use optix_device_rs::host::end::{End, end, goes_on};
+use optix_device_rs::host::end::{goes_on, throw};
 use optix_device_rs::host::{
     CallableCall, Entry, ExceptionState, Executor, Frame, HitPrograms, HitState, InstanceState, PayloadWatch, TraceCall,
 };
@@ -82,7 +82,8 @@ impl<'c> Call<'c> {
         #[cold]
         fn overflow(job: &Job<'_>) -> ! {
             if job.exceptions.stack_overflow {
-                end(End::Thrown(ExceptionState::STACK_OVERFLOW));
+                // SAFETY: it has no details.
+                unsafe { throw(ExceptionState::STACK_OVERFLOW) };
             }
             trap(
                 &rules::STACK,
@@ -172,7 +173,8 @@ impl<'c> Call<'c> {
         let depth = self.depth + 1;
         if depth > job.depths.trace {
             if job.exceptions.trace_depth {
-                end(End::Thrown(ExceptionState { code: TRACE_DEPTH_EXCEEDED, ..ExceptionState::NONE }));
+                // SAFETY: it has no details.
+                unsafe { throw(ExceptionState { code: TRACE_DEPTH_EXCEEDED, ..ExceptionState::NONE }) };
             }
             trap(
                 &rules::TRACE_DEPTH,

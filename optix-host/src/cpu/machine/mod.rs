@@ -133,7 +133,8 @@ fn run_all(job: &Job<'_>) -> Result<()> {
                 (linear / size.x % size.y) as u32,
                 (linear / (size.x * size.y)) as u32,
             );
-            if let Err(error) = job.reached.memory.enter(|| run_index(job, index)) {
+            // SAFETY: `run_index` calls the programs, and the job outlives it.
+            if let Err(error) = unsafe { job.reached.memory.enter(|| run_index(job, index)) } {
                 failed.store(true, Relaxed);
                 let mut first = first.lock().unwrap_or_else(|e| e.into_inner());
                 if first.as_ref().is_none_or(|(at, _)| linear < *at) {
@@ -151,7 +152,7 @@ fn run_all(job: &Job<'_>) -> Result<()> {
 /// Ends the launch index: the running program broke the rule, and says `what` of that.
 #[cold]
 fn trap(rule: &Rule, what: String) -> ! {
-    end::end(End::Failed(format!("{what} (guide {})", rule.guide)))
+    end::fail(format!("{what} (guide {})", rule.guide))
 }
 
 fn run_index(job: &Job<'_>, index: UVec3) -> Result<()> {

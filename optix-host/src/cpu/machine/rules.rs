@@ -144,9 +144,9 @@ mod tests {
         if std::env::var_os("CHECKED").is_some_and(|v| v == "overwrite") {
             std::fs::write(path, &expected).unwrap();
         }
-        let found = std::fs::read_to_string(path).unwrap();
+        // As it was when this was compiled: the tests run on machines without the sources, too.
         assert!(
-            found == expected,
+            include_str!("../../../../docs/checked.md") == expected,
             "{path} is of other rules: run `CHECKED=overwrite cargo test -p optix-host --lib rules`"
         );
     }

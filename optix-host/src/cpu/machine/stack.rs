@@ -62,5 +62,5 @@ fn bounds() -> (usize, usize) {
 /// Half of what Rust gives its threads, from here on.
 fn assumed() -> (usize, usize) {
     let size = 1 << 20;
-    (here() - size, size)
+    (here().saturating_sub(size), size)
 }

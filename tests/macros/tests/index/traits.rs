@@ -67,10 +67,12 @@ pub fn section(root: &Path, table: &[Vec<String>]) -> String {
     let source = root.join("../../optix-device-rs/src");
     let mut found = Vec::new();
     walk(&source, &source, &mut found);
+    let source = root.join("../../optix-host/src");
+    walk(&source, &source, &mut found);
     let mut reasons: BTreeMap<&str, &str> =
         table.iter().map(|row| (row[0].as_str(), row.get(1).map_or("", String::as_str))).collect();
     let mut section = String::from(
-        "\n## Public traits\n\nThose of the device crate, and why no safe code can break a promise by implementing one. The few of the \
+        "\n## Public traits\n\nThose of optix-device-rs and of optix-host, and why no safe code can break a promise by implementing one. The few of the \
          macros' payload parts (`ReceivedBy..`, `ReturnedBy..`) only pass a part on.\n\n| trait | safe code |\n| --- | --- |\n",
     );
     for found in &found {
