@@ -470,4 +470,33 @@ mod types_too_deep {
     pub struct Id(pub Option<Option<u32>>);
 }
 
+mod params_self_in_a_macro {
+    use optix_device_rs::prelude::*;
+
+    macro_rules! loaded {
+        () => {
+            u64
+        };
+    }
+
+    #[launch_params]
+    pub struct Frame {
+        pub at: loaded!(),
+    }
+}
+
+mod record_type_of_two_meanings {
+    use optix_device_rs::prelude::*;
+
+    mod __core {
+        pub type Number = u64;
+    }
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Paint {
+        pub id: u64,
+    }
+}
+
 fn main() {}

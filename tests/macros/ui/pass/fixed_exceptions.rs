@@ -329,4 +329,17 @@ mod exception_thrown_by_declaration {
     }
 }
 
+mod exception_codes_by_a_constant_of_the_derive {
+    use optix_device_rs::prelude::*;
+
+    const NINE: u32 = 9;
+
+    #[derive(Clone, Copy, UserException)]
+    #[repr(u32)]
+    pub enum Fault {
+        View { at: Slice<u32> } = 3,
+        Words { words: [u32; 4] } = NINE,
+    }
+}
+
 fn main() {}
