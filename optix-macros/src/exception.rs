@@ -107,7 +107,13 @@ fn emit(ident: &Ident, repr: &Repr, variants: &[&Variant]) -> TokenStream {
     }
     let span = place_of(ident);
     let there = moved(krate, span);
-    let codes = quote_spanned!(span=> const _: () = #there::check::codes(&[#(#names),*]););
+    // Numbers that are literals rustc compares; names may mean others in the block below than outside of it.
+    let is_literal =
+        |variant: &&Variant| variant.discriminant.as_ref().is_none_or(|(_, value)| matches!(value, syn::Expr::Lit(_)));
+    let codes = (!variants.iter().all(is_literal)).then(|| {
+        let codes = (0..variants.len()).map(|i| format_ident!("__CODE_{i}"));
+        quote_spanned!(span=> const _: () = #there::check::codes(&[#(#codes),*]);)
+    });
     block(quote! {
             #consts
             #codes

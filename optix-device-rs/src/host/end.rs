@@ -30,6 +30,9 @@ pub enum End {
 /// What unwinds. It says nothing, so that it may be dropped or kept by whoever catches it.
 struct Unwinding;
 
+/// What ends an index whose program panics, where a destructor meanwhile asks for what is not done any more.
+const IN_DESTRUCTOR: &str = "a destructor traces or calls while its program panics";
+
 /// The programs of a launch index.
 #[derive(Clone, Copy)]
 struct Within {
@@ -88,8 +91,7 @@ pub fn goes_on() -> bool {
     match (within.ended, unwound) {
         (true, false) => resume_unwind(Box::new(Unwinding)),
         (false, true) => {
-            let what = "a destructor traces, calls or uses a view while its program panics".to_string();
-            ENDS.with_borrow_mut(|ends| ends.push(End::Failed(what)));
+            ENDS.with_borrow_mut(|ends| ends.push(End::Failed(IN_DESTRUCTOR.to_string())));
             WITHIN.set(Some(Within { ended: true, reach: reach::close(), ..within }));
         }
         (true, true) | (false, false) => {}
@@ -117,10 +119,18 @@ pub unsafe fn catch<T>(programs: impl FnOnce() -> T) -> Result<T, End> {
         reach::reopen(within.reach);
         ENDS.with_borrow_mut(Vec::pop)
     });
-    match (result.map_err(words), end) {
+    match (result, end) {
         (Ok(result), None) => Ok(result),
-        (Err(panic), None) => Err(End::Failed(panic)),
-        (_, Some(end)) => Err(end),
+        (Err(panic), None) => Err(End::Failed(words(panic))),
+        // The panic itself says more, if the program did not catch it.
+        (Err(panic), Some(End::Failed(what))) if what == IN_DESTRUCTOR && !panic.is::<Unwinding>() => {
+            Err(End::Failed(words(panic)))
+        }
+        (Err(panic), Some(end)) => {
+            core::mem::forget(panic);
+            Err(end)
+        }
+        (Ok(_), Some(end)) => Err(end),
     }
 }
 
