@@ -6,10 +6,11 @@
 
 mod common;
 
+use std::cell::RefCell;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// What the registry has.
 const OF_REGISTRY: u32 = 71_001;
@@ -44,8 +45,23 @@ struct Project {
     environment: Vec<(&'static str, String)>,
 }
 
+/// Waits until no other test's thread is left that asked before.
+///
+/// The programs have one name and one folder, and cargo takes sources that were written before another test's build of a crate with
+/// the same name and place in its workspace for that crate's.
+fn wait_for_turn() {
+    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+    thread_local! {
+        static TURN: RefCell<Option<MutexGuard<'static, ()>>> = const { RefCell::new(None) };
+    }
+    TURN.with_borrow_mut(|turn| {
+        turn.get_or_insert_with(|| ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner));
+    });
+}
+
 /// The workspace. None: this machine can't compile for the device.
 fn project(name: &str) -> Option<Project> {
+    wait_for_turn();
     let dir = common::can_compile(name).then(|| common::folder(&format!("agreement-{name}")))?;
     let project = Project { at: dir.clone(), dir, environment: Vec::new() };
     project.write("Cargo.toml", "[workspace]\nmembers = [\"host\", \"shaders\"]\nresolver = \"3\"\n");
@@ -110,9 +126,6 @@ impl Project {
     }
 
     fn cargo(&self, args: &[&str]) -> Output {
-        // The programs have one name, and one folder.
-        static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
-        let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
         let mut command = Command::new(env!("CARGO"));
         command.args(args).current_dir(&self.at).env("CARGO_TERM_COLOR", "never").env("CARGO_NET_OFFLINE", "true");
         for name in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "OPTIX_RUSTC"] {
