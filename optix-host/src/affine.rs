@@ -51,7 +51,7 @@ impl Affine {
     /// singular, or the inverse, rounded to `f32`, is not finite or is singular itself.
     ///
     /// Scales down to about 3e-39 thus have one, whatever the determinant would be in `f32`. The cofactors are exact but for
-    /// one rounding, and so is the [`determinant`]; the elements are good to a few units in the last place of `f64`.
+    /// one rounding, and so is the determinant; the elements are good to a few units in the last place of `f64`.
     pub fn inverse(&self) -> Option<Self> {
         let m = &self.0;
         let determinant = determinant(m);
