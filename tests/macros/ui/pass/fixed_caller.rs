@@ -67,6 +67,36 @@ mod caller_gives_too_little {
     }
 }
 
+mod caller_has_no_part {
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    pub struct Frame {
+        pub world: Traversable,
+    }
+
+    #[derive(Payload)]
+    pub struct Radiance {
+        #[payload(write(closesthit, miss), read(caller))]
+        pub light: Vec3,
+    }
+
+    #[derive(Payload)]
+    pub struct Touch {
+        #[payload(write(caller), read(closesthit))]
+        pub strength: f32,
+    }
+
+    fn gives<P: Pipeline<Params = Frame> + HasRay<Radiance>>(rg: &RayGen<P>, ray: Ray) -> Vec3 {
+        let seen = rg.trace::<Radiance>(rg.params().world(), ray, ());
+        seen.light
+    }
+
+    fn gets<P: Pipeline<Params = Frame> + HasRay<Touch>>(rg: &RayGen<P>, ray: Ray) {
+        rg.trace::<Touch>(rg.params().world(), ray, TouchFromCaller { strength: 1.0 });
+    }
+}
+
 mod caller_leaves_out_closesthit {
     use optix_device_rs::prelude::*;
 
