@@ -95,7 +95,8 @@ pub struct Packed<T>(pub T);
 /// it is a [`CallableRecord`](crate::host::CallableRecord), which a scene makes.
 #[repr(transparent)]
 pub struct Callable<F, K = Direct> {
-    /// Index in the callables section, of a record whose program has signature `F` and kind `K`.
+    /// Index in the callables section, or on the CPU a number that stands for it, of a record whose program has signature `F` and
+    /// kind `K`.
     index: u32,
     types: PhantomData<fn() -> (F, K)>,
     of: OfLaunch,
@@ -106,7 +107,7 @@ pub struct Callable<F, K = Direct> {
 /// On the host it is a [`CallableTable`](crate::host::CallableTable), which a scene makes.
 #[repr(C)]
 pub struct Callables<F, K = Direct> {
-    /// Index of the first one in the callables section; all `len` from there on have signature `F` and kind `K`.
+    /// The same of the first one; all `len` from there on have signature `F` and kind `K`.
     first: u32,
     len: u32,
     types: PhantomData<fn() -> (F, K)>,

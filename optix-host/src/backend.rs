@@ -23,6 +23,8 @@ pub(crate) trait Backend: Any + Send + Sync {
     fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel>;
     /// Builds an instance acceleration structure.
     fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel>;
+    /// By which number programs know callable record `index` of a scene; those of the `count` records from there on follow it.
+    fn number_callables(&self, index: u32, count: u32) -> Result<u32>;
     /// Makes a pipeline ready to launch. `kept` is what the table's records point to, which the pipeline keeps.
     fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable, kept: &[Kept]) -> Result<Box<dyn Linked>>;
 }

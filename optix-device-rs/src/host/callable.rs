@@ -22,6 +22,7 @@ pub struct CallableTable<F, K> {
 /// Records of a scene.
 #[derive(Clone)]
 struct Range {
+    /// The number by which programs know the first record; those of the others follow.
     first: u32,
     len: u32,
     device: DeviceId,
@@ -53,18 +54,14 @@ macro_rules! owners {
 owners!(CallableRecord CallableTable);
 
 impl<F, K> CallableRecord<F, K> {
-    /// For scenes: record `index` of the callables section, on `device`; `scene` tells launches which scene's it is.
+    /// For scenes: the record of the callables section that programs on `device` know by `number`; `scene` tells launches which
+    /// scene's it is.
     ///
     /// # Safety
     /// Launches that keep `scene` have that record, of a program with signature `F` and kind `K`.
     #[doc(hidden)]
-    pub unsafe fn new(index: u32, device: DeviceId, scene: Arc<dyn Any + Send + Sync>) -> Self {
-        Self { range: Range { first: index, len: 1, device, scene }, types: PhantomData }
-    }
-
-    /// Its index in the callables section of its scene.
-    pub fn index(&self) -> u32 {
-        self.range.first
+    pub unsafe fn new(number: u32, device: DeviceId, scene: Arc<dyn Any + Send + Sync>) -> Self {
+        Self { range: Range { first: number, len: 1, device, scene }, types: PhantomData }
     }
 
     /// What [`CallableRecord::new`] was given as `scene`, if it is a `T`.
@@ -75,7 +72,7 @@ impl<F, K> CallableRecord<F, K> {
 }
 
 impl<F, K> CallableTable<F, K> {
-    /// For scenes: `len` records from `first` on; see [`CallableRecord::new`].
+    /// For scenes: `len` records, the first of which programs know by number `first`; see [`CallableRecord::new`].
     ///
     /// # Safety
     /// As there, for each record.

@@ -53,8 +53,8 @@ impl ExceptionState {
 /// A call of a callable (guide 15.2).
 #[derive(Clone, Copy, Debug)]
 pub struct CallableCall {
-    /// Index in the callables section.
-    pub index: u32,
+    /// The number that the reference holds.
+    pub number: u32,
     /// Whether a continuation callable is called.
     pub continuation: bool,
     /// The signature's type, such as `fn(Vec2) -> Vec3`.

@@ -352,10 +352,10 @@ impl Cx {
         end::goes_on() && self.frame().executor.report(t, kind as u8, count, attributes)
     }
 
-    fn call<F: Signature>(&self, continuation: bool, index: u32, arguments: F::Arguments) -> F::Result {
+    fn call<F: Signature>(&self, continuation: bool, number: u32, arguments: F::Arguments) -> F::Result {
         let mut words = WordBuffer::ZERO;
         arguments.store(part_mut(&mut words.0, 0, F::Arguments::COUNT));
-        let call = CallableCall { index, continuation, signature: TypeId::of::<F>() };
+        let call = CallableCall { number, continuation, signature: TypeId::of::<F>() };
         if end::goes_on() {
             self.frame().executor.call(&call, &mut words);
         } else {

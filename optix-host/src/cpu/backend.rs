@@ -1,7 +1,7 @@
 //! The CPU as a backend: it turns the scene's description into the kernel's structures and runs launches.
 
 use super::kernel::{self, AabbInput, Accel, Gas, GeometryFlags, Ias, Instance, SbtMapping, TriangleInput};
-use super::machine::{self, Job, Reached};
+use super::machine::{self, Callables, Job, Reached};
 use super::memory::CpuMemory;
 use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, IasInput, Linked, Running, next_device_id};
 use crate::plan::Plan;
@@ -10,6 +10,7 @@ use crate::scene::GeometryData;
 use crate::{Error, Result};
 use optix_device_rs::host::{DeviceId, GeometryKind, Handle, Kept, Memory};
 use std::any::Any;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The CPU.
@@ -77,9 +78,18 @@ impl Backend for CpuBackend {
         Ok(built(Ias::new(instances.collect::<Result<_>>()?)?.into()))
     }
 
+    /// Numbers never come twice, so that a reference which a program kept from another scene's launch names nothing.
+    fn number_callables(&self, _: u32, count: u32) -> Result<u32> {
+        static NEXT: AtomicU32 = AtomicU32::new(0);
+        NEXT.fetch_update(Relaxed, Relaxed, |next| next.checked_add(count)).map_err(|_| {
+            Error::Scene("the scenes of this process have had more callables than 32 bits can number".into())
+        })
+    }
+
     fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable, kept: &[Kept]) -> Result<Box<dyn Linked>> {
         let (checked, complaints) = (self.checked, self.complaints.clone());
-        Ok(Box::new(CpuPipeline { plan, sbt, kept: kept.to_vec(), checked, complaints }))
+        let callables = Callables::of(&sbt.callables);
+        Ok(Box::new(CpuPipeline { plan, sbt, callables, kept: kept.to_vec(), checked, complaints }))
     }
 }
 
@@ -155,6 +165,7 @@ fn boxes(input: &BuildInput) -> Option<AabbInput> {
 struct CpuPipeline {
     plan: Arc<Plan>,
     sbt: ShaderBindingTable,
+    callables: Callables,
     /// What the records point to.
     kept: Vec<Kept>,
     checked: bool,
@@ -163,7 +174,8 @@ struct CpuPipeline {
 
 impl Linked for CpuPipeline {
     fn launch(&self, raygen: usize, params: &[u8], kept: &[Kept], dimensions: [u32; 3]) -> Result<Box<dyn Running>> {
-        let reached = reached(self.kept.iter().chain(kept));
+        let mut reached = reached(self.kept.iter().chain(kept));
+        reached.callables = self.callables.clone();
         let job = Job::new(&self.plan, &self.sbt, params, reached, raygen, dimensions, self.checked);
         let complaints = machine::run(job)?;
         self.complaints.lock().unwrap_or_else(PoisonError::into_inner).extend(complaints);

@@ -54,6 +54,11 @@ impl Backend for OptixBackend {
         Ok(Arc::new(OptixMemory { device: self.id, buffer: DeviceBuffer::zeroed(&self.context, bytes)? }))
     }
 
+    /// On the device the index is what a call takes.
+    fn number_callables(&self, index: u32, _: u32) -> Result<u32> {
+        Ok(index)
+    }
+
     fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel> {
         let GasInput { compact, random_vertex_access, .. } = *input;
         let options = AccelOptions { compact, random_vertex_access, ..Default::default() };
@@ -200,7 +205,7 @@ impl OptixPipeline {
         let raygen = packed(sbt.raygen, |&i| groups.raygen(plan, i))?;
         let miss = packed(sbt.miss, |&ray| groups.miss(plan, ray))?;
         let hit = packed(sbt.hit, |&slot| groups.hit(plan, slot))?;
-        let callables = packed(sbt.callables, |&program| groups.callable(plan, program))?;
+        let callables = packed(sbt.callables, |callable| groups.callable(plan, callable.program))?;
         let exception = packed(sbt.exception, |()| groups.exception(plan))?;
         let groups: Vec<_> = groups.made.into_values().collect();
         let group_count = groups.len();

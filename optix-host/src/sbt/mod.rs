@@ -90,6 +90,15 @@ pub struct HitProgram {
     pub ray: usize,
 }
 
+/// The program of a callable's record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CallableProgram {
+    /// Index in [`PipelineDescription::callables`](optix_device_rs::host::PipelineDescription::callables).
+    pub program: usize,
+    /// By which programs know the record.
+    pub number: u32,
+}
+
 /// A shader binding table.
 #[derive(Clone, Debug)]
 pub struct ShaderBindingTable {
@@ -99,8 +108,8 @@ pub struct ShaderBindingTable {
     pub miss: Section<usize>,
     /// Records of materials, per ray type.
     pub hit: Section<HitProgram>,
-    /// Records of callables, as the scene made them; which program of the pipeline each is for.
-    pub callables: Section<usize>,
+    /// Records of callables, as the scene made them.
+    pub callables: Section<CallableProgram>,
     /// The record of the exception program, if there is one.
     pub exception: Section<()>,
 }
@@ -135,7 +144,7 @@ impl ShaderBindingTable {
         let raygen: Vec<_> = scene.raygen.iter().map(|r| data(&r.bytes)).collect();
         let miss: Vec<_> = scene.miss.iter().map(|r| data(&r.bytes)).collect();
         let materials: Vec<_> = scene.materials.iter().map(|m| data(&m.record.bytes)).collect();
-        let callables: Vec<_> = scene.callables.iter().map(|c| (c.program, data(&c.record.bytes))).collect();
+        let callables: Vec<_> = scene.callables.iter().map(|c| data(&c.record.bytes)).collect();
         let exception = description.exceptions.program.map(|_| data(&scene.exception.bytes));
         let rays = description.rays.len();
         Ok(Self {
@@ -145,7 +154,9 @@ impl ShaderBindingTable {
                 let bytes = &materials[material as usize][..];
                 (0..rays).map(move |ray| (HitProgram { group: group as usize, ray }, bytes))
             })),
-            callables: Section::new(callables.iter().map(|(program, bytes)| (*program, &bytes[..]))),
+            callables: Section::new(scene.callables.iter().zip(&callables).map(|(callable, bytes)| {
+                (CallableProgram { program: callable.program, number: callable.number }, &bytes[..])
+            })),
             exception: Section::new(exception.iter().map(|bytes| ((), &bytes[..]))),
         })
     }

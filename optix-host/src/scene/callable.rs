@@ -13,6 +13,8 @@ use std::sync::Arc;
 pub(crate) struct CallableState {
     /// Index in the pipeline's description.
     pub program: usize,
+    /// By which programs know it.
+    pub number: u32,
     pub record: RecordData,
 }
 
@@ -36,11 +38,11 @@ impl<P: Pipeline> Scene<P> {
         P: HasCallable<Prog>,
     {
         let record = self.lower(&record)?;
-        let index = self.push(CallableState { program: <P as HasCallable<Prog>>::INDEX as usize, record })?;
-        let shared = self.callables_up_to(index + 1);
+        let program = <P as HasCallable<Prog>>::INDEX as usize;
+        let (number, shared) = self.push(vec![CallableState { program, number: 0, record }])?;
         // SAFETY: the record is of a program with this signature and kind (`HasCallable`), and records are never taken
         // away; launches compare the scene.
-        Ok(unsafe { CallableRecord::new(index, self.device.backend.id(), shared) })
+        Ok(unsafe { CallableRecord::new(number, self.device.backend.id(), shared) })
     }
 
     /// Makes a table of callables, which programs choose from by number. A callable may be in any number of tables, and
@@ -49,30 +51,25 @@ impl<P: Pipeline> Scene<P> {
     /// # Errors
     /// [`Error::Scene`] for a callable of another scene.
     pub fn callables<F, K>(&mut self, callables: &[CallableRecord<F, K>]) -> Result<CallableTable<F, K>> {
-        if callables.iter().any(|c| c.owner::<CallableShared>().is_none_or(|shared| shared.scene != self.state.id)) {
-            return Err(Error::Scene(
-                "a table of callables holds one of another scene; make it with this scene".into(),
-            ));
-        }
-        let first = numbered(self.state.callables.len(), "callables")?;
-        let end = numbered(self.state.callables.len().saturating_add(callables.len()), "callables")?;
-        let states: Vec<_> = callables.iter().map(|c| self.state.callables[c.index() as usize].clone()).collect();
-        for state in states {
-            self.push(state)?;
-        }
-        let len = end - first;
-        let shared = self.callables_up_to(end);
+        let state = |callable: &CallableRecord<F, K>| {
+            let shared = callable.owner::<CallableShared>().filter(|shared| shared.scene == self.state.id)?;
+            Some(self.state.callables[shared.end as usize - 1].clone())
+        };
+        let states = callables.iter().map(state).collect::<Option<Vec<_>>>().ok_or_else(|| {
+            Error::Scene("a table of callables holds one of another scene; make it with this scene".into())
+        })?;
+        let len = numbered(states.len(), "callables")?;
+        let (first, shared) = self.push(states)?;
         // SAFETY: copies of records of programs with this signature and kind; otherwise as above.
         Ok(unsafe { CallableTable::new(first, len, self.device.backend.id(), shared) })
     }
 
-    fn push(&mut self, state: CallableState) -> Result<u32> {
+    /// Adds records, and numbers them one after the other: the first number, and what tells launches whose they are.
+    fn push(&mut self, states: Vec<CallableState>) -> Result<(u32, Arc<dyn Any + Send + Sync>)> {
         let index = numbered(self.state.callables.len(), "callables")?;
-        self.state.callables.push(state);
-        Ok(index)
-    }
-
-    fn callables_up_to(&self, end: u32) -> Arc<dyn Any + Send + Sync> {
-        Arc::new(CallableShared { scene: self.state.id, end })
+        let end = numbered(self.state.callables.len().saturating_add(states.len()), "callables")?;
+        let first = self.device.backend.number_callables(index, end - index)?;
+        self.state.callables.extend((first..).zip(states).map(|(number, state)| CallableState { number, ..state }));
+        Ok((first, Arc::new(CallableShared { scene: self.state.id, end })))
     }
 }

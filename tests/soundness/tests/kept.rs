@@ -18,10 +18,26 @@ enum What {
     Triangles,
     /// The view of a record.
     Record,
+    Direct,
+    Table,
+    Continuation,
 }
 
-const ALL: [What; 7] =
-    [What::Slice, What::SliceMut, What::SliceMut2d, What::Traversable, What::Instances, What::Triangles, What::Record];
+const ALL: [What; 10] = [
+    What::Slice,
+    What::SliceMut,
+    What::SliceMut2d,
+    What::Traversable,
+    What::Instances,
+    What::Triangles,
+    What::Record,
+    What::Direct,
+    What::Table,
+    What::Continuation,
+];
+
+/// What callables take and return.
+type Adds = fn(u32) -> u32;
 
 #[derive(Clone, Copy)]
 enum Kept {
@@ -31,6 +47,9 @@ enum Kept {
     Traversable(Traversable),
     Instances(Instances),
     Triangles(TriangleVertices),
+    Direct(Callable<Adds>),
+    Table(Callables<Adds>),
+    Continuation(Callable<Adds, Continuation>),
 }
 
 thread_local! {
@@ -45,6 +64,9 @@ pub struct Frame {
     pub world: Traversable,
     pub instances: Instances,
     pub triangles: TriangleVertices,
+    pub direct: Callable<Adds>,
+    pub table: Callables<Adds>,
+    pub continuation: Callable<Adds, Continuation>,
     pub keep: u32,
     pub what: u32,
 }
@@ -67,6 +89,22 @@ pub struct Start {
     pub ids: Slice<u32>,
 }
 
+#[derive(Clone, Copy, SbtRecord)]
+#[repr(C)]
+pub struct More {
+    pub by: u32,
+}
+
+#[direct_callable]
+fn add(_: &DirectCallable<Keeps>, more: &More, to: u32) -> u32 {
+    to + more.by
+}
+
+#[continuation_callable]
+fn add_in_turn(_: &ContinuationCallable<Keeps>, more: &More, to: u32) -> u32 {
+    to + more.by
+}
+
 fn kept(frame: &FrameView<'_>, start: &Start) -> Kept {
     match ALL[frame.what() as usize] {
         What::Slice => Kept::Slice(frame.read()),
@@ -76,6 +114,9 @@ fn kept(frame: &FrameView<'_>, start: &Start) -> Kept {
         What::Instances => Kept::Instances(frame.instances()),
         What::Triangles => Kept::Triangles(frame.triangles()),
         What::Record => Kept::Slice(start.ids),
+        What::Direct => Kept::Direct(frame.direct()),
+        What::Table => Kept::Table(frame.table()),
+        What::Continuation => Kept::Continuation(frame.continuation()),
     }
 }
 
@@ -100,6 +141,9 @@ fn go(rg: &RayGen<Keeps>, start: &Start) {
         Kept::Traversable(world) => rg.trace::<Found>(world, ray, ()).id,
         Kept::Instances(instances) => instances.get(rg, 0).id(),
         Kept::Triangles(triangles) => triangles.get(rg, 0, 0)[1].x as u32 * 7,
+        Kept::Direct(callable) => callable.call(rg, 5),
+        Kept::Table(table) => table.get(1).call(rg, 5),
+        Kept::Continuation(callable) => callable.call(rg, 5),
     };
     frame.out().set(0, found);
 }
@@ -120,12 +164,14 @@ pipeline! {
         raygen: [go],
         rays: { Found { miss: none } },
         hitgroups: { Paint on Triangles => { Found { closesthit: paint } } },
+        direct_callables: [add],
+        continuation_callables: [add_in_turn],
     }
 }
 
 /// A scene, its pipeline and all that its launches are given.
 struct Made {
-    _scene: Scene<Keeps>,
+    scene: Scene<Keeps>,
     pipeline: Pipeline<Keeps>,
     frame: FrameHost,
 }
@@ -138,6 +184,9 @@ fn made(device: &Device) -> Made {
     let geometry = scene.geometry(TriangleMesh::new(&[Vec3::ZERO, Vec3::X, Vec3::Y])).unwrap();
     let (gas, triangles) = scene.gas([geometry.with(&material)]).build_with_triangles().unwrap();
     let (ias, instances) = scene.ias([gas.at(Affine3A::IDENTITY).id(7)]).build_with_instances().unwrap();
+    let direct = scene.callable::<add>(More { by: 2 }).unwrap();
+    let table = scene.callables(&[direct.clone(), direct.clone()]).unwrap();
+    let continuation = scene.callable::<add_in_turn>(More { by: 2 }).unwrap();
     let pipeline = Pipeline::for_scene(&scene).build().unwrap();
     let frame = FrameHost {
         read: device.buffer(&[7u32]).unwrap(),
@@ -146,10 +195,13 @@ fn made(device: &Device) -> Made {
         world: ias.world().unwrap(),
         instances,
         triangles,
+        direct,
+        table,
+        continuation,
         keep: 0,
         what: 0,
     };
-    Made { _scene: scene, pipeline, frame }
+    Made { scene, pipeline, frame }
 }
 
 impl Made {
@@ -213,6 +265,22 @@ fn a_structure_that_is_read_only_is_not_traced_against() {
         refused(other.launch(false, What::Traversable));
         first.launch(true, What::Instances).unwrap();
         other.launch(false, What::Instances).unwrap();
+    });
+}
+
+#[test]
+fn a_callable_that_was_made_after_the_pipeline_is_not_called() {
+    on_one_thread(|| {
+        let mut made = made(&Device::cpu().unwrap());
+        let direct = made.scene.callable::<add>(More { by: 2 }).unwrap();
+        let pipeline = Pipeline::for_scene(&made.scene).build().unwrap();
+        let newer = FrameHost { direct, keep: 1, what: What::Direct as u32, ..made.frame.clone() };
+        pipeline.launch(&newer, [1, 1, 1]).unwrap().wait().unwrap();
+        refused(made.launch(false, What::Direct));
+        // The older records are in the newer table, too.
+        made.launch(true, What::Direct).unwrap();
+        pipeline.launch(&FrameHost { keep: 0, ..newer }, [1, 1, 1]).unwrap().wait().unwrap();
+        assert_eq!(made.frame.out.read().unwrap()[0], 7);
     });
 }
 

@@ -193,14 +193,16 @@ impl<'c> Call<'c> {
 
     /// Calls a callable, which finds its arguments in `words` and leaves its result there.
     pub fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
-        let (job, index) = (self.job, call.index as usize);
-        let Some(&program) = job.sbt.callables.programs().get(index) else {
+        let job = self.job;
+        let Some(index) = job.reached.callables.get(call.number) else {
             trap(
                 &rules::CALLABLE_RECORD,
-                format!("there is no callable {index}: the table has {}", job.sbt.callables.programs().len()),
+                "a callable is called that the scene of this launch did not have when the pipeline was built: it was kept from another \
+                 launch; make it with this scene, and pass it to this launch"
+                    .into(),
             )
         };
-        let callable = &job.description.callables[program];
+        let callable = &job.description.callables[job.sbt.callables.programs()[index].program];
         if (callable.continuation, callable.signature) != (call.continuation, call.signature) {
             trap(
                 &rules::CALLABLE_SIGNATURE,

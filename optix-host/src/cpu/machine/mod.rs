@@ -22,7 +22,7 @@ mod traversal;
 
 use crate::cpu::kernel::Accel;
 use crate::plan::{Depths, Exceptions, Plan};
-use crate::sbt::ShaderBindingTable;
+use crate::sbt::{CallableProgram, Section, ShaderBindingTable};
 use crate::{Error, Result};
 use call::Call;
 use core::cell::Cell;
@@ -32,8 +32,8 @@ use optix_device_rs::host::end::{self, End};
 use optix_device_rs::host::{ByHandle, HitPrograms, PipelineDescription, RayDescription, Reach};
 use rayon::prelude::*;
 use rules::Rule;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::{Arc, Mutex};
 
 /// Launch indices that a thread takes at a time: few, since one may be a whole pixel's paths, and the last chunk of a
 /// launch keeps the other threads waiting; enough that taking them costs nothing beside one ray each.
@@ -47,6 +47,25 @@ pub(super) struct Reached<'a> {
     pub traced: ByHandle<&'a Accel>,
     /// Structures that programs read by number.
     pub read: ByHandle<&'a Accel>,
+    pub callables: Callables,
+}
+
+/// Records of callables by the number that programs know them by.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Callables(Arc<[(u32, usize)]>);
+
+impl Callables {
+    pub fn of(section: &Section<CallableProgram>) -> Self {
+        let mut records: Vec<_> = section.programs().iter().map(|callable| callable.number).zip(0..).collect();
+        records.sort_unstable();
+        Self(records.into())
+    }
+
+    /// The index of the record with this number.
+    fn get(&self, number: u32) -> Option<usize> {
+        let at = self.0.binary_search_by_key(&number, |&(number, _)| number).ok()?;
+        Some(self.0[at].1)
+    }
 }
 
 /// A launch.

@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::cpu::kernel::{Aabb, AabbInput, Accel, Gas, GeometryFlags, SbtMapping, TriangleInput};
-use crate::sbt::{HitProgram, Section};
+use crate::sbt::HitProgram;
 use glam::Vec3;
 use optix_device_rs::callable::Direct;
 use optix_device_rs::host::{
@@ -43,6 +43,9 @@ enum Called {
     /// A callable that calls itself so often.
     Nested(u32),
 }
+
+/// By which programs know the only callable.
+const CALLABLE: u32 = 5;
 
 /// What the pipeline's plan says.
 #[derive(Clone, Copy)]
@@ -126,9 +129,9 @@ fn call(cx: Cx) {
     unsafe {
         match script().callable {
             Called::Nothing => {}
-            Called::Record(index, true) => assert_eq!(cx.call_direct::<fn(f32) -> u32>(index, (1.0,)), 7),
-            Called::Record(index, false) => drop(cx.call_direct::<fn(u32) -> u32>(index, (1,))),
-            Called::Nested(_) => drop(cx.call_direct::<fn(f32) -> u32>(0, (1.0,))),
+            Called::Record(number, true) => assert_eq!(cx.call_direct::<fn(f32) -> u32>(number, (1.0,)), 7),
+            Called::Record(number, false) => drop(cx.call_direct::<fn(u32) -> u32>(number, (1,))),
+            Called::Nested(_) => drop(cx.call_direct::<fn(f32) -> u32>(CALLABLE, (1.0,))),
         }
     }
 }
@@ -231,11 +234,13 @@ fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned
     }
     SCRIPT.set(Some(script));
     let none: &[u8] = &[];
+    let callables = Section::new([(CallableProgram { program: 0, number: CALLABLE }, none)]);
+    reached.callables = Callables::of(&callables);
     let sbt = ShaderBindingTable {
         raygen: Section::new([(0, none)]),
         miss: Section::new([(0, none)]),
         hit: Section::new([0, 1].map(|group| (HitProgram { group, ray: 0 }, none))),
-        callables: Section::new([(0, none)]),
+        callables,
         exception: Section::new([]),
     };
     let job = Job {
@@ -480,13 +485,14 @@ fn records_and_depth() {
 fn callables() {
     for checked in [false, true] {
         let run = |callable| run(false, checked, Script { callable, ..lawful(false) });
-        assert_eq!(run(Called::Record(0, true)), None);
-        let message = run(Called::Record(1, true)).unwrap();
+        assert_eq!(run(Called::Record(CALLABLE, true)), None);
+        // The index of its record is not its number.
+        let message = run(Called::Record(0, true)).unwrap();
         assert!(
-            message.contains("no callable 1: the table has 1") && message.contains(rules::CALLABLE_RECORD.guide),
+            message.contains("kept from another launch") && message.contains(rules::CALLABLE_RECORD.guide),
             "{message}"
         );
-        let message = run(Called::Record(0, false)).unwrap();
+        let message = run(Called::Record(CALLABLE, false)).unwrap();
         assert!(
             message.contains("__direct_callable__test") && message.contains(rules::CALLABLE_SIGNATURE.guide),
             "{message}"
