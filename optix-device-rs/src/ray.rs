@@ -55,6 +55,10 @@ impl Words for Traversable {
 
 /// A ray: origin and direction in world space, and the interval of `t` in which hits count, `origin + t * direction`.
 ///
+/// Both have to be finite, and the direction longer than 0, in the object space of each instance that the ray comes to as well
+/// (guide 13.2): an instance of scale `1e-38` puts an origin 4 units away beyond what 32 bits can have. On the CPU such a ray
+/// misses what the instance holds, and meets everything else; in checked mode it ends the launch.
+///
 /// ```
 /// use optix_device_rs::prelude::*;
 /// let shadow = Ray::new(Vec3::ZERO, Vec3::Y)

@@ -24,6 +24,10 @@ pub trait Programs {
 
     /// Called for custom primitives whose box the ray meets. Calls [`Reporter::report`] for each hit found.
     fn intersect(&mut self, site: &Site<'_>, reporter: &mut Reporter<'_, '_>);
+
+    /// Called for an instance whose box the ray meets and which it still misses: it is no ray in the instance's space, since an
+    /// element of `object_ray` is not finite or its direction is 0. `path` leads to the instance.
+    fn no_ray(&mut self, _path: &InstancePath<'_>, _object_ray: &Ray) {}
 }
 
 /// A primitive that a ray has come to.

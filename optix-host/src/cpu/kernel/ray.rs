@@ -9,7 +9,7 @@ use super::aabb::Aabb;
 pub struct RayQuery {
     pub origin: [f32; 3],
     /// Any length but 0; `t` counts in multiples of it. A ray with an element that is not finite, or with no
-    /// direction, misses everything.
+    /// direction, misses everything; one that becomes so in the space of an instance misses what the instance holds.
     pub direction: [f32; 3],
     /// Closed interval of hits. A negative `tmin` is undefined in OptiX (§13.2) and taken as 0 here; NaN misses.
     pub tmin: f32,

@@ -93,11 +93,11 @@ struct Space {
 }
 
 impl Space {
-    /// `None` if the ray misses everything.
+    /// The rounded ray if it misses everything.
     #[inline(always)]
-    fn new(exact: [[f64; 3]; 2], tmin: f32) -> Option<Self> {
+    fn new(exact: [[f64; 3]; 2], tmin: f32) -> Result<Self, Ray> {
         let ray = Ray { origin: narrow(exact[0]), direction: narrow(exact[1]) };
-        Some(Self { ray, exact, frame: Frame::new(&ray.origin, &ray.direction, tmin)? })
+        Ok(Self { ray, exact, frame: Frame::new(&ray.origin, &ray.direction, tmin).ok_or(ray)? })
     }
 }
 
@@ -314,8 +314,15 @@ impl<P: Programs> Task for AtIas<'_, '_, P> {
             } else {
                 let [origin, direction] = here.space.exact;
                 let exact = [placed.inverse.point(origin), placed.inverse.vector(direction)];
-                let Some(space) = Space::new(exact, here.tmin) else { return limit };
-                own = space;
+                match Space::new(exact, here.tmin) {
+                    Ok(space) => own = space,
+                    Err(ray) => {
+                        path.push(index);
+                        programs.no_ray(path, &ray);
+                        path.pop();
+                        return limit;
+                    }
+                }
                 &own
             };
             let place =

@@ -3,8 +3,9 @@
 //! Each message names the rule and its item in the guide's checklist, such as `G010`.
 
 use super::{Job, rules, trap};
-use crate::cpu::kernel::{Aabb, Site};
+use crate::cpu::kernel::{Aabb, InstancePath, Ray, Site};
 use core::cell::RefCell;
+use glam::Vec3;
 use optix_device_rs::host::{PayloadDescription, PayloadWatch, TraceCall};
 use optix_device_rs::spawn::gamma;
 
@@ -16,7 +17,7 @@ pub(super) fn trace(job: &Job<'_>, trace: &TraceCall) -> Watch {
             trap(&rules::RAY, format!("the ray's {what} {vector} is not finite"));
         }
     }
-    if ray.direction == glam::Vec3::ZERO {
+    if ray.direction == Vec3::ZERO {
         trap(&rules::RAY, "the ray has no direction: all its elements are 0".into());
     }
     // An infinite tmax is an interval without end.
@@ -36,6 +37,26 @@ pub(super) fn trace(job: &Job<'_>, trace: &TraceCall) -> Watch {
         }
     }
     Watch::new(job.ray(trace.miss_index).payload, trace)
+}
+
+/// Ends the launch index of a ray that is none in the object space of an instance.
+pub(super) fn no_ray(path: &InstancePath<'_>, object_ray: &Ray) -> ! {
+    let (origin, direction) = (Vec3::from_array(object_ray.origin), Vec3::from_array(object_ray.direction));
+    let what = if !origin.is_finite() {
+        format!("its origin becomes {origin}")
+    } else if !direction.is_finite() {
+        format!("its direction becomes {direction}")
+    } else {
+        "all elements of its direction become 0".into()
+    };
+    let (indices, id) = (path.indices(), path.instance_id());
+    trap(
+        &rules::OBJECT_RAY,
+        format!(
+            "the ray can't be taken to the object space of the instance with ID {id}, at {indices:?} from the root: {what}, so it \
+             misses what the instance holds; scale the scene, or the instance's transform, to sizes that 32 bits can have"
+        ),
+    )
 }
 
 /// Checks a report at a primitive, while hits up to `tmax` count.

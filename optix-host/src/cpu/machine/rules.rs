@@ -41,6 +41,7 @@ macro_rules! rules {
 
 rules! {
     RAY, Checked, "13.2, G008", "a ray's origin or direction is not finite, or the direction is zero";
+    OBJECT_RAY, Checked, "13.2, G008", "a ray meets the box of an instance in whose object space its origin or direction is not finite, or its direction is zero; unchecked, it misses what the instance holds";
     INTERVAL, Checked, "13.2, G010", "`tmin` is negative, infinite or NaN; `tmax` is NaN or minus infinity";
     ANYHIT_FLAGS, Checked, "13.2, G016 to G019", "two of a ray's any-hit flags exclude each other";
     CULL_FLAGS, Checked, "13.2, G023", "a ray culls both faces of triangles";

@@ -2,7 +2,7 @@
 //! hand, on the frame.
 
 use super::*;
-use crate::cpu::kernel::{Aabb, AabbInput, Accel, Gas, GeometryFlags, SbtMapping, TriangleInput};
+use crate::cpu::kernel::{Aabb, AabbInput, Accel, Gas, GeometryFlags, Ias, Instance, SbtMapping, TriangleInput};
 use crate::sbt::HitProgram;
 use glam::Vec3;
 use optix_device_rs::callable::Direct;
@@ -19,6 +19,8 @@ use optix_device_rs::words::WordBuffer;
 #[derive(Clone, Copy)]
 struct Script {
     call: TraceCall,
+    /// The transform of an instance that the structure is under, as a scale; 1 for none.
+    scale: f32,
     /// Trace calls that the closest-hit program makes, one in the other.
     nested: u32,
     anyhit_gives: &'static [usize],
@@ -195,6 +197,7 @@ fn lawful(custom: bool) -> Script {
     let report = (1.5, 127);
     Script {
         call,
+        scale: 1.0,
         nested: 0,
         anyhit_gives: &[],
         closesthit_takes: &[0],
@@ -224,7 +227,13 @@ fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned
         let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         Gas::triangles(vec![TriangleInput { vertices, indices: None, sbt, primitive_index_offset: 0 }])
     };
-    let accel = Accel::from(gas.unwrap());
+    let mut accel = Accel::from(gas.unwrap());
+    if script.scale != 1.0 {
+        let s = script.scale;
+        let transform = [s, 0.0, 0.0, 0.0, 0.0, s, 0.0, 0.0, 0.0, 0.0, s, 0.0];
+        let instance = Instance { transform, instance_id: 17, ..Instance::new(Arc::new(accel)) };
+        accel = Ias::new(vec![instance]).unwrap().into();
+    }
     let handle = Handle::issue();
     let mut reached = Reached::default();
     reached.traced.insert(&handle, &accel);
@@ -284,6 +293,29 @@ fn rays_that_are_not_finite() {
     traps(false, |s| s.call.ray.origin.y = f32::NAN, raygen, &rules::RAY, &["origin [0.25, NaN, 2] is not finite"]);
     traps(false, |s| s.call.ray.direction.z = f32::INFINITY, raygen, &rules::RAY, &["direction", "not finite"]);
     traps(false, |s| s.call.ray.direction = Vec3::ZERO, raygen, &rules::RAY, &["no direction"]);
+}
+
+#[test]
+fn rays_that_are_none_in_object_space() {
+    let at = |scale: f32, origin: Vec3, direction: Vec3| {
+        move |s: &mut Script| {
+            s.scale = scale;
+            s.call.ray = Ray::new(origin, direction);
+        }
+    };
+    let trapped = |change: &dyn Fn(&mut Script), words: &[&str]| {
+        let words = [&["the instance with ID 17, at [0] from the root"], words].concat();
+        traps(false, change, "__raygen__test", &rules::OBJECT_RAY, &words);
+    };
+    let over = Vec3::new(0.0, 0.0, 2.0);
+    trapped(&at(3e-39, over, Vec3::NEG_Z), &["its origin becomes [0, 0, inf]"]);
+    trapped(&at(0.5, over, Vec3::NEG_Z * f32::MAX), &["its direction becomes [0, 0, -inf]"]);
+    trapped(&at(1e30, over, Vec3::NEG_Z * 1e-30), &["all elements of its direction become 0"]);
+    for lawful_change in [at(1e-38, over, Vec3::NEG_Z), at(1e30, over, Vec3::NEG_Z), at(3e-39, Vec3::ONE, Vec3::Z)] {
+        let mut script = lawful(false);
+        lawful_change(&mut script);
+        assert_eq!(run(false, true, script), None);
+    }
 }
 
 #[test]

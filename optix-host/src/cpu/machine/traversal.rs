@@ -151,4 +151,12 @@ impl Programs for Traversal<'_> {
         let seen = seen(site, ray, 0, [0; 8]);
         let _ = call.run(entry, &call.job.sbt.hit, site.sbt_index as usize, seen, &executor);
     }
+
+    #[cold]
+    #[inline(never)]
+    fn no_ray(&mut self, path: &InstancePath<'_>, object_ray: &kernel::Ray) {
+        if self.call.job.checked {
+            checks::no_ray(path, object_ray);
+        }
+    }
 }

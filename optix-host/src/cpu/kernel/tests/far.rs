@@ -172,6 +172,42 @@ fn origins_far_away() {
     }
 }
 
+/// A ray that is none in one instance's space misses that instance, which is said, and meets its neighbours as without it.
+#[test]
+fn rays_that_are_none_in_an_instance() {
+    #[derive(Default)]
+    struct Told(Vec<(Vec<u32>, Ray)>);
+    impl Programs for Told {
+        fn any_hit(&mut self, _: &Candidate<'_>) -> AnyHit {
+            AnyHit::Accept
+        }
+        fn intersect(&mut self, _: &Site<'_>, _: &mut Reporter<'_, '_>) {}
+        fn no_ray(&mut self, path: &InstancePath<'_>, object_ray: &Ray) {
+            self.0.push((path.indices().to_vec(), *object_ray));
+        }
+    }
+    let floor = shared(mesh(&corners(1.0), &PLANE));
+    let scaled = |s: f32, y: f32, child: &Arc<Accel>| Instance {
+        transform: [s, 0., 0., 0., 0., s, 0., y, 0., 0., s, 0.],
+        ..Instance::new(child.clone())
+    };
+    // Above the floor, a tiny one, or one that is tiny by two scales.
+    let inner = shared(Ias::new(vec![scaled(1e-20, 0.0, &floor)]).unwrap());
+    for (tiny, at) in [(scaled(3e-39, 1.0, &floor), vec![0]), (scaled(1e-20, 1.0, &inner), vec![0, 0])] {
+        let ray = RayQuery::new([0.0, 3.0, 0.0], [0.0, -1.0, 0.0]);
+        let neighbours = [scaled(1.0, 0.0, &floor), scaled(2.0, -1.0, &floor)];
+        let without = Ias::new(neighbours.to_vec()).unwrap().into();
+        let with = Ias::new([&[tiny][..], &neighbours].concat()).unwrap().into();
+        let expected = nearest(&without, &ray, Opaque);
+        assert_eq!(expected.map(|(_, t)| t), Some(4.0));
+        assert_eq!(nearest(&with, &ray, Opaque), expected);
+        let mut told = Told::default();
+        trace(Some(&with), &ray, &mut told);
+        let [(path, object_ray)] = &told.0[..] else { panic!("{:?}", told.0) };
+        assert_eq!((path, object_ray.origin[1]), (&at, f32::INFINITY));
+    }
+}
+
 #[test]
 fn empty_boxes_stay_empty() {
     let gas = Gas::custom(vec![AabbInput {
