@@ -96,6 +96,7 @@ impl Field {
         starts: &[Start],
         threads: usize,
         rays: u32,
+        reach: f32,
         per_axis: bool,
     ) -> Result<Vec<Departure>>
     where
@@ -107,6 +108,7 @@ impl Field {
             departures: departures.clone(),
             world: self.worlds[island].clone(),
             rays,
+            reach,
             per_axis,
         };
         self.pipeline.launch_program::<P>(&frame, [threads as u32, 1, 1])?.wait()?;
@@ -115,22 +117,22 @@ impl Field {
 
     /// Sends `rays` from each hit in all directions; `per_axis` with the bound of version 0.1.
     pub fn leave(&self, island: usize, starts: &[Start], rays: u32, per_axis: bool) -> Result<Vec<Departure>> {
-        self.run::<leave>(island, starts, starts.len(), rays, per_axis)
+        self.run::<leave>(island, starts, starts.len(), rays, f32::MAX, per_axis)
     }
 
     /// Finds the largest offset that is too small: for `rays` directions, or with 0 for the given one.
     pub fn margins(&self, island: usize, starts: &[Start], rays: u32) -> Result<Vec<Departure>> {
-        self.run::<margin>(island, starts, starts.len(), rays, false)
+        self.run::<margin>(island, starts, starts.len(), rays, f32::MAX, false)
     }
 
     /// Sends `rays` from each hit to the surface that is near it.
     pub fn neighbours(&self, island: usize, starts: &[Start], rays: u32) -> Result<Vec<Departure>> {
-        self.run::<neighbour>(island, starts, starts.len(), rays, false)
+        self.run::<neighbour>(island, starts, starts.len(), rays, f32::MAX, false)
     }
 
-    /// Sends segments between the hits of two starts in a row.
+    /// Sends segments between the hits of two starts in a row. The rays to these hits end at twice their distance.
     pub fn between(&self, island: usize, starts: &[Start]) -> Result<Vec<Departure>> {
-        self.run::<between>(island, starts, starts.len() / 2, 0, false)
+        self.run::<between>(island, starts, starts.len() / 2, 0, 2.0, false)
     }
 }
 

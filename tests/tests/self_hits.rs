@@ -4,7 +4,7 @@
 //! families of triangles; by default it is a million.
 
 use glam::{Affine3A, DVec3, Quat, Vec3};
-use optix_host::{BackendKind, Device};
+use optix_host::Device;
 use optix_tests::devices;
 use optix_tests::meshes;
 use optix_tests::probe::{Part, ProbeRay, Tracer, ray};
@@ -352,48 +352,50 @@ fn a_surface_farther_than_both_errors_is_met() {
     }
 }
 
+/// Pairs of triangles with a third one across the way between their points, and a start for each point.
+fn pairs(range: [i32; 2], levels: usize, count: usize, dice: &mut Dice) -> Batch {
+    let chain: Vec<Affine3A> = (0..levels).map(|_| level(dice)).collect();
+    let empty = Island { levels: chain.clone(), content: Content::Triangles(Vec::new()) };
+    let mut triangles = Vec::new();
+    let mut starts = Vec::new();
+    for _ in 0..count {
+        let family = dice.pick(&[Family::AxisAligned, Family::Tilted, Family::Any, Family::Needle]);
+        let (a, b) = (family.triangle(range, dice), family.triangle(range, dice));
+        let away = dice.sphere() * (size(&a) as f32 * dice.power(1.0, 20.0));
+        let b = b.map(|p| p + away);
+        let (in_a, in_b) = (weights(dice), weights(dice));
+        let at = |t: &Triangle, [u, v]: [f32; 2]| {
+            let [p0, p1, p2] = t.map(|p| p.as_dvec3());
+            p0 + (p1 - p0) * f64::from(u) + (p2 - p0) * f64::from(v)
+        };
+        let (from, to) = (at(&a, in_a), at(&b, in_b));
+        // Across the way, anywhere on it.
+        let (way, share) = (to - from, f64::from(0.1 + 0.8 * dice.unit()));
+        let (x, y) = way.normalize().any_orthonormal_pair();
+        let middle = from + way * share;
+        let wide = way.length() * 0.3;
+        let sheet = [x * wide, -x * wide + y * wide, -x * wide - y * wide].map(|d| (middle + d).as_vec3());
+        let base = triangles.len() as u32;
+        for (i, t, weights) in [(0, &a, in_a), (1, &b, in_b)] {
+            // Near by, so that the first rays are not in the way of others.
+            let first = start(&empty, t, base + i, weights, dice.sphere());
+            starts.push(Start { other: base + 2, ..first });
+        }
+        triangles.extend([a, b, sheet]);
+    }
+    let island = Island { levels: chain, content: Content::Triangles(triangles) };
+    Batch { islands: vec![island], starts: vec![starts] }
+}
+
 #[test]
 fn segments_meet_what_is_between_and_no_end() {
     for device in devices::all("segments_meet_what_is_between_and_no_end") {
-        // On OptiX (driver 580) a launch over a field of 500 pairs does not end, why is not known yet; one over 83 does.
-        let most = if device.kind() == BackendKind::Optix { 1_000 } else { 1 << 16 };
-        let pairs = (budget() / 20).clamp(1_000, most) as usize;
+        let count = (budget() / 20).clamp(1_000, 1 << 16) as usize;
         let mut sums = [Sum::default(); 3];
-        let fields = pairs.div_ceil(512).max(12);
+        let fields = count.div_ceil(512).max(12);
         for seed in 0..fields {
             let levels = seed % 3;
-            let mut dice = Dice::new(700 + seed as u64);
-            let chain: Vec<Affine3A> = (0..levels).map(|_| level(&mut dice)).collect();
-            let empty = Island { levels: chain.clone(), content: Content::Triangles(Vec::new()) };
-            let mut triangles = Vec::new();
-            let mut starts = Vec::new();
-            for _ in 0..pairs / fields {
-                let family = dice.pick(&[Family::AxisAligned, Family::Tilted, Family::Any, Family::Needle]);
-                let (a, b) = (family.triangle(range(&device), &mut dice), family.triangle(range(&device), &mut dice));
-                let away = dice.sphere() * (size(&a) as f32 * dice.power(1.0, 20.0));
-                let b = b.map(|p| p + away);
-                let (in_a, in_b) = (weights(&mut dice), weights(&mut dice));
-                let at = |t: &Triangle, [u, v]: [f32; 2]| {
-                    let [p0, p1, p2] = t.map(|p| p.as_dvec3());
-                    p0 + (p1 - p0) * f64::from(u) + (p2 - p0) * f64::from(v)
-                };
-                let (from, to) = (at(&a, in_a), at(&b, in_b));
-                // Across the way, anywhere on it.
-                let (way, share) = (to - from, f64::from(0.1 + 0.8 * dice.unit()));
-                let (x, y) = way.normalize().any_orthonormal_pair();
-                let middle = from + way * share;
-                let wide = way.length() * 0.3;
-                let sheet = [x * wide, -x * wide + y * wide, -x * wide - y * wide].map(|d| (middle + d).as_vec3());
-                let base = triangles.len() as u32;
-                for (i, t, weights) in [(0, &a, in_a), (1, &b, in_b)] {
-                    // Near by, so that the first rays are not in the way of others.
-                    let first = start(&empty, t, base + i, weights, dice.sphere());
-                    starts.push(Start { other: base + 2, ..first });
-                }
-                triangles.extend([a, b, sheet]);
-            }
-            let island = Island { levels: chain, content: Content::Triangles(triangles) };
-            let batch = Batch { islands: vec![island], starts: vec![starts] };
+            let batch = pairs(range(&device), levels, count / fields, &mut Dice::new(700 + seed as u64));
             sums[levels].add(&batch.run(&device, |field, island, s| field.between(island, s).unwrap()));
         }
         println!("segments, by levels of instances, on {}: {sums:?}", device.description());
@@ -401,6 +403,18 @@ fn segments_meet_what_is_between_and_no_end() {
             assert!(sum.met * 4 > sum.starts, "{sum:?}");
             assert_eq!((sum.own, sum.lost), (0, 0));
         }
+    }
+}
+
+/// One of the fields above, where some rays without an end, whose any-hit program ignores what they meet, do not return from
+/// traversal with driver 580 on a GPU without ray-tracing cores: their any-hit programs are not called any more.
+#[test]
+#[ignore = "does not end with driver 580 on an H100"]
+fn rays_without_an_end_return() {
+    for device in devices::all("rays_without_an_end_return") {
+        let batch = pairs(range(&device), 0, 510, &mut Dice::new(700));
+        let departures = batch.run(&device, |field, island, s| field.leave(island, s, 0, false).unwrap());
+        println!("rays without an end, on {}: {} returned", device.description(), departures.len());
     }
 }
 
@@ -413,13 +427,20 @@ fn offsets_are_not_much_too_large() {
             let batch = make(starts, &mut Dice::new(40 + number as u64));
             let departures = batch.run(&device, |field, island, s| field.margins(island, s, 64).unwrap());
             let mut margins: Vec<f32> = departures.iter().map(|d| d.margin).filter(|m| *m >= 0.0).collect();
+            let hits = margins.len();
+            // Where no ray meets the surface again even without an offset there is no ratio.
+            margins.retain(|m| *m > 0.0);
+            let none = 100.0 * (hits - margins.len()) as f64 / hits as f64;
             margins.sort_by(f32::total_cmp);
+            if margins.is_empty() {
+                println!("  {name:<14} no hit of {hits} needs an offset");
+                continue;
+            }
             let at = |share: f64| margins[((margins.len() - 1) as f64 * share) as usize].recip();
             // Large offsets are those with small margins.
             let (median, most, least) = (at(0.5), at(0.01), at(1.0));
             println!(
-                "  {name:<14} median {median:>8.1}  99 % below {most:>8.1}  least {least:>8.2}  ({} hits)",
-                margins.len()
+                "  {name:<14} median {median:>8.1}  99 % below {most:>8.1}  least {least:>8.2}  none needed {none:>5.1} % of {hits}"
             );
             assert!(least > 1.0, "{name}: {least}");
         }

@@ -52,6 +52,8 @@ pub struct SpawnFrame {
     pub world: Traversable,
     /// Rays that leave from each hit.
     pub rays: u32,
+    /// Where the rays of `starts` end; what they are to meet is at `t` = 1.
+    pub reach: f32,
     /// Whether points have the bound of version 0.1, which took a triangle's error per axis: to see that tests can fail.
     pub per_axis: bool,
 }
@@ -112,7 +114,7 @@ fn met(rg: &RayGen<Spawn>, ray: Ray, only: u32) -> MetAtCaller {
 /// The surface point that a start names.
 fn point_of(rg: &RayGen<Spawn>, start: &Start) -> (MetAtCaller, SurfacePoint) {
     let ray = Ray::new(Vec3::from_array(start.origin), Vec3::from_array(start.direction));
-    let first = met(rg, ray, start.primitive);
+    let first = met(rg, ray.range(0.0, rg.params().reach()), start.primitive);
     let mut point = SurfacePoint::new(first.position, first.normal, first.error);
     point.error_per_length = first.error_per_length;
     (first, point)
