@@ -30,6 +30,25 @@ impl Place {
     }
 }
 
+/// Options that were given to a cargo in `dir`, for one that runs elsewhere: files of settings get their whole path.
+pub(crate) fn elsewhere(options: &[OsString], dir: &Path) -> Vec<OsString> {
+    let file = |value: &str| Some(dir.join(value).into_os_string()).filter(|file| Path::new(file).is_file());
+    let mut is_setting = false;
+    let option = |option: &OsString| {
+        let text = option.to_string_lossy();
+        let found = match (std::mem::replace(&mut is_setting, text == "--config"), text.strip_prefix("--config=")) {
+            (true, _) => file(&text),
+            (false, value) => value.and_then(file).map(|file| {
+                let mut option = OsString::from("--config=");
+                option.push(file);
+                option
+            }),
+        };
+        found.unwrap_or_else(|| option.clone())
+    };
+    options.iter().map(option).collect()
+}
+
 /// A cargo that knows nothing of the outer build: not its flags, wrappers (clippy), target or package.
 ///
 /// It keeps what says how to reach registries, how many jobs to run, what profiles are and how the host links, and reads
@@ -141,6 +160,17 @@ mod tests {
             assert!(!belongs_to_outer_build(name, false), "{name}");
         }
         assert!(belongs_to_outer_build("DEBUG", true) && !belongs_to_outer_build("DEBUGINFOD_URLS", true));
+    }
+
+    #[test]
+    fn files_of_settings_are_found_from_elsewhere() {
+        let dir = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let given =
+            ["--offline", "--config", "Cargo.toml", "--config=Cargo.toml", "Cargo.toml", "--config=a.b=1", "--config"];
+        let file = dir.join("Cargo.toml").display().to_string();
+        let with = format!("--config={file}");
+        let expected = ["--offline", "--config", &file, &with, "Cargo.toml", "--config=a.b=1", "--config"];
+        assert_eq!(elsewhere(&given.map(OsString::from), dir), expected.map(OsString::from));
     }
 
     #[test]

@@ -142,7 +142,7 @@ impl<'a> Session<'a> {
         let mut theirs = of_host.to_vec();
         if original.is_member {
             let features: Vec<&str> = self.recipe.features.iter().map(String::as_str).collect();
-            let profile = self.shaders.profile();
+            let profile = self.shaders.profile_name();
             let mut command = original.build(&self.package, profile, &features, &target_dir);
             theirs = units::units(self.for_device(&mut command).arg("--lib"), &doing)?;
             for resolver in RESOLVERS {

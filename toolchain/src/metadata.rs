@@ -1,5 +1,6 @@
 //! What `cargo metadata` says of packages.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -171,9 +172,21 @@ pub struct Workspace {
 impl Workspace {
     /// The workspace of the package in `dir`; reads manifests only, and touches no lock file.
     pub fn of(dir: &Path) -> Result<Self, Error> {
-        let mut command = cargo::command(dir);
-        command.args(["metadata", "--no-deps"]);
-        Self::read(command, &format!("reading the manifests in {}", dir.display()))
+        Self::with_options(dir, &[])
+    }
+
+    /// As [`Workspace::of`], by a cargo that is given these options in the current folder.
+    pub fn with_options(dir: &Path, options: &[OsString]) -> Result<Self, Error> {
+        let options =
+            std::env::current_dir().map_or_else(|_| options.to_vec(), |here| cargo::elsewhere(options, &here));
+        Self::at(&Place { dir: dir.to_path_buf(), options })
+    }
+
+    /// The workspace of the package in the folder where cargo runs.
+    pub(crate) fn at(place: &Place) -> Result<Self, Error> {
+        let mut command = cargo::command(&place.dir);
+        command.args(["metadata", "--no-deps"]).args(&place.options);
+        Self::read(command, &format!("reading the manifests in {}", place.dir.display()))
     }
 
     /// As [`Workspace::of`], but `packages` is every package of the dependency graph, for the device and further targets.

@@ -1,5 +1,6 @@
 //! The options of a device build.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use crate::device_build::{self, Built};
@@ -64,6 +65,9 @@ pub struct Shaders {
     /// None: as the program that is built has them.
     pub(crate) features: Option<Vec<String>>,
     pub(crate) default_features: Option<bool>,
+    pub(crate) profile: Option<String>,
+    pub(crate) locked: bool,
+    pub(crate) cargo_options: Vec<OsString>,
     pub(crate) quiet: bool,
     /// The build of the program, if this is a build script's.
     pub(crate) outer: Option<Outer>,
@@ -86,6 +90,9 @@ impl Shaders {
             checks: None,
             features: None,
             default_features: None,
+            profile: None,
+            locked: false,
+            cargo_options: Vec::new(),
             quiet: true,
             outer: None,
         }
@@ -143,8 +150,7 @@ impl Shaders {
     }
 
     /// Whether arithmetic that overflows and a `debug_assert!` that fails end the program, as `overflow-checks` and
-    /// `debug-assertions` of a profile. Default: as the profile of the program says for each crate, or outside of a build
-    /// script the profile `release`. Indices are checked always.
+    /// `debug-assertions` of a profile. Default: as the [profile](Self::profile) says for each crate. Indices are checked always.
     pub fn checks(mut self, on: bool) -> Self {
         self.checks = Some(on);
         self
@@ -164,6 +170,27 @@ impl Shaders {
         self
     }
 
+    /// The profile of the user's workspace that says which [checks](Self::checks) there are; PTX is optimised in any case.
+    /// Default: `release`. A build script does not ask: it is that of the program.
+    pub fn profile(mut self, name: impl Into<String>) -> Self {
+        self.profile = Some(name.into());
+        self
+    }
+
+    /// Whether it is an error if the lock file of the user's workspace is missing or out of date: cargo's `--locked`. Default:
+    /// false. A build script does not ask: there it is one.
+    pub fn locked(mut self, on: bool) -> Self {
+        self.locked = on;
+        self
+    }
+
+    /// Options for every cargo that has a part in the build, such as `--offline` and `--config=KEY=VALUE`. A build script does
+    /// not ask: they are those of the cargo that runs it.
+    pub fn cargo_options<S: Into<OsString>>(mut self, options: impl IntoIterator<Item = S>) -> Self {
+        self.cargo_options = options.into_iter().map(Into::into).collect();
+        self
+    }
+
     /// The features that were chosen, as options of cargo.
     pub(crate) fn feature_options(&self) -> Vec<String> {
         let without_default = self.default_features == Some(false);
@@ -172,8 +199,9 @@ impl Shaders {
     }
 
     /// The profile that says what is checked.
-    pub(crate) fn profile(&self) -> &str {
-        self.outer.as_ref().map_or("release", |outer| &outer.profile)
+    pub(crate) fn profile_name(&self) -> &str {
+        let chosen = || self.profile.as_deref().unwrap_or("release");
+        self.outer.as_ref().map_or_else(chosen, |outer| &outer.profile)
     }
 
     /// Whether to keep silent about progress, as a build script should. Diagnostics are shown always. Default: true.
@@ -241,7 +269,7 @@ impl Shaders {
     /// Tells builds apart whose intermediate files must not be mixed: of which crate, in which workspace, with which features.
     pub(crate) fn key(&self, dir: &Path, root: &Path, features: &[String]) -> String {
         let maths = [self.fmad, self.ftz, self.prec_div, self.prec_sqrt, self.libdevice, self.line_info];
-        let switches = format!("{maths:?}{:?}{:?}{}", self.checks, self.codegen, self.profile());
+        let switches = format!("{maths:?}{:?}{:?}{}", self.checks, self.codegen, self.profile_name());
         let (dir, root, flags) = (dir.to_string_lossy(), root.to_string_lossy(), outer::flags());
         let parts = [dir.as_ref(), root.as_ref(), self.arch.as_str(), switches.as_str()];
         util::hash(parts.into_iter().chain(flags.iter().chain(features).map(String::as_str)))

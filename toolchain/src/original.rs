@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::cargo::Place;
+use crate::cargo::{self, Place};
 use crate::compiler::DeviceCompiler;
 use crate::error::Error;
 use crate::metadata::{CRATES_IO, Package, Workspace};
@@ -28,7 +28,7 @@ pub(crate) struct Original {
     pub shaders: Package,
     /// Whether it is a member: its features can be chosen then.
     pub is_member: bool,
-    /// Whether cargo must leave the lock file as it is: it is that of a build which has begun.
+    /// Whether cargo must leave the lock file as it is: it is that of a build which has begun, or that was asked for.
     pub is_locked: bool,
 }
 
@@ -46,11 +46,17 @@ impl Original {
         {
             return Ok(found);
         }
-        let root = Workspace::of(&dir)?.root;
-        let here = std::env::current_dir().ok().filter(|here| shaders.outer.is_none() && here.starts_with(&root));
-        let options = shaders.outer.as_ref().map_or_else(Vec::new, |outer| outer.options.clone());
+        let here = std::env::current_dir().ok();
+        let options = match (&shaders.outer, &here) {
+            (Some(outer), _) => outer.options.clone(),
+            (None, Some(here)) => cargo::elsewhere(&shaders.cargo_options, here),
+            (None, None) => shaders.cargo_options.clone(),
+        };
+        let root = Workspace::at(&Place { dir: dir.clone(), options: options.clone() })?.root;
+        let here = here.filter(|here| shaders.outer.is_none() && here.starts_with(&root));
         let place = Place { dir: here.unwrap_or_else(|| root.clone()), options };
-        let is_locked = shaders.outer.is_some() && root.join("Cargo.lock").is_file();
+        let of_begun_build = || shaders.outer.is_some() && root.join("Cargo.lock").is_file();
+        let is_locked = shaders.locked || of_begun_build();
         let mut args = shaders.feature_options();
         args.extend(is_locked.then(|| "--locked".to_string()));
         let args: Vec<&str> = args.iter().map(String::as_str).collect();
@@ -61,7 +67,7 @@ impl Original {
     /// In the workspace of the package that is being built. None: the shader crate is not a part of it.
     fn of_outer(outer: &Outer, shaders: &Shaders, dir: &Path) -> Result<Option<Self>, Error> {
         let folder = outer.manifest.parent().unwrap_or(&outer.manifest);
-        let manifests = Workspace::of(folder)?;
+        let manifests = Workspace::at(&Place { dir: folder.to_path_buf(), options: outer.options.clone() })?;
         let place =
             Place { dir: outer.dir.clone().unwrap_or_else(|| manifests.root.clone()), options: outer.options.clone() };
         let is_locked = manifests.root.join("Cargo.lock").is_file();

@@ -7,6 +7,8 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+#[cfg_attr(not(target_os = "linux"), allow(unused_imports))]
+use crate::cargo;
 use crate::metadata::{Package, Workspace};
 use crate::options::Shaders;
 
@@ -103,7 +105,9 @@ fn parent() -> Option<(PathBuf, Vec<OsString>)> {
     }
     let line = std::fs::read(process.join("cmdline")).ok()?;
     let words = line.split(|byte| *byte == 0).map(|word| OsString::from_vec(word.to_vec()));
-    Some((std::fs::read_link(process.join("cwd")).ok()?, options(words.skip(1))))
+    let dir = std::fs::read_link(process.join("cwd")).ok()?;
+    let options = cargo::elsewhere(&options(words.skip(1)), &dir);
+    Some((dir, options))
 }
 
 #[cfg(not(target_os = "linux"))]

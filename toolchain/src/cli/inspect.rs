@@ -7,8 +7,8 @@ use optix_toolchain::inspect::ptxas::{Ptxas, Usage};
 use optix_toolchain::inspect::{Class, Program, pairs, programs, with_source};
 use optix_toolchain::json::Json;
 
-use super::options::Options;
-use super::{Failure, Outcome, build};
+use super::options::{Crate, Options};
+use super::{Failure, Outcome};
 
 #[derive(clap::Args)]
 pub(super) struct How {
@@ -72,15 +72,16 @@ fn modules(how: &How, arch: &str) -> Result<(Vec<(String, String)>, PathBuf), Fa
     if let Some(path) = &how.ptx {
         return Ok((vec![(path.display().to_string(), read(path)?)], std::env::temp_dir()));
     }
-    let (crates, area) = build::crates(how.build.path.as_deref())?;
-    let compile = |path: &PathBuf| {
-        let mut shaders = how.build.shaders(path, arch);
+    let (crates, area) = how.build.crates()?;
+    let compile = |one: &Crate| {
+        let mut shaders = how.build.shaders(one, arch);
         if how.source.is_some() {
             shaders = shaders.line_info(true);
         }
-        shaders.compile_in(&area).map(|built| (built.name, built.text))
+        let built = shaders.compile_in(&area)?;
+        Ok((built.name, built.text))
     };
-    let modules = crates.iter().map(compile).collect::<Result<_, _>>()?;
+    let modules = crates.iter().map(compile).collect::<Result<_, Failure>>()?;
     Ok((modules, area))
 }
 

@@ -6,8 +6,8 @@ use std::process::ExitCode;
 use optix_toolchain::json::Json;
 use optix_toolchain::verify::{Finding, Level, Rule, Verified};
 
+use super::Outcome;
 use super::options::Options;
-use super::{Outcome, build};
 
 /// How to verify.
 pub(super) struct How {
@@ -18,15 +18,15 @@ pub(super) struct How {
 }
 
 pub(super) fn run(how: &How) -> Outcome {
-    let (crates, area) = build::crates(how.options.path.as_deref())?;
+    let (crates, area) = how.options.crates()?;
     let mut errors = 0;
-    for path in &crates {
-        let shaders = how.options.shaders(path, &how.arch).quiet(how.json);
+    for one in &crates {
+        let shaders = how.options.shaders(one, &how.arch).quiet(how.json);
         let verified = shaders.verify_in(&area, &how.allowed)?;
         if how.json {
             verified.findings.iter().for_each(|finding| say!("{}", json(&verified.built.name, finding)));
         } else {
-            report(path, &verified);
+            report(&one.path, &verified);
         }
         errors += verified.findings.iter().filter(|finding| finding.level == Level::Error).count();
     }
