@@ -1,6 +1,6 @@
 //! `DeviceData`, with the host twin of structs that hold views.
 
-use crate::shape::{Form, Struct, construct};
+use crate::shape::{Field, Form, Struct, construct};
 use crate::support::{Errors, block, device_crate, device_crate_outside, docs, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
@@ -13,7 +13,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
         return errors.into_tokens();
     };
     model.require_repr_c("a device-data struct", &mut errors);
-    let data = device_data(&model, "struct");
+    let data = device_data(&model, Fields::Data, "struct");
     let twin = twin(&model, &mut errors);
     let items = twin.items;
     let errors = errors.into_tokens();
@@ -28,18 +28,37 @@ pub fn alignment(model: &Struct, what: &str) -> TokenStream {
     quote_spanned!(span=> const _: () = #check(#what, #name, __core::mem::align_of::<#ident>());)
 }
 
+/// What the fields of a struct are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Fields {
+    /// Views of device memory, and plain data.
+    Data,
+    /// Elements of buffers.
+    Elements,
+}
+
+impl Fields {
+    /// The trait that a field must have, and what in it writes the field and says its layout.
+    fn asked(self, field: &Field) -> (TokenStream, Ident, Ident) {
+        let (of, write, layout) = match self {
+            Self::Elements => (quote!(view::Element), "write_element", "ELEMENT_LAYOUT"),
+            Self::Data if field.view => (quote!(data::DeviceData), "write_to", "LAYOUT"),
+            Self::Data => (quote!(data::Plain), "write_plain", "PLAIN_LAYOUT"),
+        };
+        let (ty, span) = (&field.ty, place_of(&field.ty));
+        let (krate, of) = (moved(&device_crate(), span), moved(&of, span));
+        (quote_spanned!(span=> <#ty as #krate::#of>), Ident::new(write, span), Ident::new(layout, span))
+    }
+}
+
 /// The impl of `DeviceData`: each field at its offset. `what` the struct is called in messages.
-pub fn device_data(model: &Struct, what: &str) -> TokenStream {
+pub fn device_data(model: &Struct, fields: Fields, what: &str) -> TokenStream {
     let (krate, ident) = (&device_crate(), &model.ident);
     let writes = model.fields.iter().map(|field| {
-        let (member, ty) = (&field.member, &field.ty);
-        let span = place_of(ty);
+        let (member, ty, span) = (&field.member, &field.ty, place_of(&field.ty));
         let krate = moved(krate, span);
-        let write = if field.view {
-            quote_spanned!(span=> <#ty as #krate::data::DeviceData>::write_to)
-        } else {
-            quote_spanned!(span=> <#ty as #krate::data::Plain>::write_plain)
-        };
+        let (asked, write, _) = fields.asked(field);
+        let write = quote_spanned!(span=> #asked::#write);
         let same = quote_spanned!(span=> #krate::check::same);
         quote! {{
             const __AT: __core::primitive::usize = __core::mem::offset_of!(#ident, #member);
@@ -48,27 +67,22 @@ pub fn device_data(model: &Struct, what: &str) -> TokenStream {
             #write(&__field, &mut __bytes[__AT..__AT + __core::mem::size_of::<#ty>()]);
         }}
     });
-    let (touch, bounds, alignment) = (touch(model), struct_bounds(model), alignment(model, what));
-    let views = model.fields.iter().filter(|field| field.view).map(|field| {
+    let layout = model.fields.iter().map(|field| {
+        let (member, name, span) = (&field.member, field.name(), place_of(&field.ty));
+        let (asked, _, layout) = fields.asked(field);
+        let layout = quote_spanned!(span=> #asked::#layout);
+        quote!(.field(#name, __core::mem::offset_of!(#ident, #member), #layout))
+    });
+    let views = model.fields.iter().filter(|field| field.view && fields == Fields::Data).map(|field| {
         let (ty, span) = (&field.ty, place_of(&field.ty));
         let krate = moved(krate, span);
         quote_spanned!(span=> const _: () = #krate::check::view::<#ty>();)
     });
-    let layout = model.fields.iter().map(|field| {
-        let (member, ty, name) = (&field.member, &field.ty, field.name());
-        let span = place_of(ty);
-        let krate = moved(krate, span);
-        let layout = if field.view {
-            quote_spanned!(span=> <#ty as #krate::data::DeviceData>::LAYOUT)
-        } else {
-            quote_spanned!(span=> <#ty as #krate::data::Plain>::PLAIN_LAYOUT)
-        };
-        quote!(.field(#name, __core::mem::offset_of!(#ident, #member), #layout))
-    });
+    let (touch, alignment, bounds) = (touch(model), alignment(model, what), view_bounds(model, krate));
     block(quote! {
         // SAFETY: the layout is C's, each field has a layout that host and device share, and padding is not written.
         #[automatically_derived]
-        unsafe impl #krate::data::DeviceData for #ident #bounds {
+        unsafe impl #krate::data::DeviceData for #ident where #bounds {
             #[inline]
             fn write_to(&self, __bytes: &mut [__core::primitive::u8]) {
                 #(#writes)*
@@ -84,12 +98,6 @@ pub fn device_data(model: &Struct, what: &str) -> TokenStream {
     })
 }
 
-/// The traits need `Copy`; where it is missing this bound makes all impls fail with one message.
-pub fn copy_bound(ident: &Ident) -> TokenStream {
-    let span = place_of(ident);
-    quote_spanned!(span=> where #ident: __core::marker::Copy)
-}
-
 /// What reports once, at the struct's name, that it is not `Copy`; and the bound with which an impl leaves it at that. With a
 /// lifetime, since rustc reports a plain bound that does not hold.
 pub fn must_copy(model: &Struct) -> (TokenStream, TokenStream) {
@@ -100,10 +108,12 @@ pub fn must_copy(model: &Struct) -> (TokenStream, TokenStream) {
     (assertion, quote!(where for<'__never> #ident: __core::marker::Copy))
 }
 
-/// [`copy_bound`], and [`view_bounds`].
+/// The bounds with which an impl says nothing more about a struct whose `DeviceData` has an error: that it has it, whatever that
+/// asks for, and [`view_bounds`]. With a lifetime, so that rustc takes it on trust.
 pub fn struct_bounds(model: &Struct) -> TokenStream {
-    let views = view_bounds(model, &device_crate());
-    quote!(where #views)
+    let (krate, ident) = (&device_crate(), &model.ident);
+    let views = view_bounds(model, krate);
+    quote!(where for<'__never> #ident: #krate::data::DeviceData, #views)
 }
 
 /// What `device_data` asserts once, of each view: so nothing that is made of the struct reports it again. With a lifetime,
@@ -140,29 +150,30 @@ pub struct Twin {
     pub items: TokenStream,
 }
 
+/// What says that a struct without views is plain data, and its own twin.
+pub fn own_twin(model: &Struct) -> TokenStream {
+    let (krate, ident, bounds) = (&device_crate(), &model.ident, struct_bounds(model));
+    block(quote! {
+        // SAFETY: no field is a view, and each is plain itself.
+        #[automatically_derived]
+        unsafe impl #krate::data::Plain for #ident #bounds {}
+        #[cfg(not(target_arch = "nvptx64"))]
+        #[automatically_derived]
+        unsafe impl #krate::host::Twin for #ident #bounds {
+            type Device = #ident;
+            #[inline]
+            fn lower(&self, _: &mut #krate::host::KeepAlive) -> #ident {
+                *self
+            }
+        }
+    })
+}
+
 /// The struct is its own twin, or has one in which owners stand in place of views.
 pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
     let (krate, ident, vis) = (&device_crate(), &model.ident, &model.vis);
     if !model.has_views() {
-        let fields = model.fields.iter().map(|field| &field.member);
-        let copies: Vec<_> = fields.map(|member| quote!(self.#member)).collect();
-        // Not `*self`, which would report a struct that is not `Copy` again.
-        let copy = construct(ident, &model.fields, &copies);
-        let items = block(quote! {
-            // SAFETY: no field is a view, and each is plain itself.
-            #[automatically_derived]
-            unsafe impl #krate::data::Plain for #ident {}
-            #[cfg(not(target_arch = "nvptx64"))]
-            #[automatically_derived]
-            unsafe impl #krate::host::Twin for #ident {
-                type Device = #ident;
-                #[inline]
-                fn lower(&self, _: &mut #krate::host::KeepAlive) -> #ident {
-                    #copy
-                }
-            }
-        });
-        return Twin { host: ident.clone(), items };
+        return Twin { host: ident.clone(), items: own_twin(model) };
     }
     if model.form == Form::Tuple {
         errors.at(

@@ -1,6 +1,5 @@
 //! `#[derive(UserException)]`.
 
-use crate::data::copy_bound;
 use crate::shape::Repr;
 use crate::support::{Errors, block, device_crate, moved, name, place_of, ungroup};
 use proc_macro2::TokenStream;
@@ -45,7 +44,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
 }
 
 fn emit(ident: &Ident, repr: &Repr, variants: &[&Variant]) -> TokenStream {
-    let (krate, enum_name, copy) = (&device_crate(), name(ident), copy_bound(ident));
+    let (krate, enum_name) = (&device_crate(), name(ident));
     let mut consts = TokenStream::new();
     let (mut names, mut throw, mut decode, mut most) = (Vec::new(), Vec::new(), Vec::new(), quote!(0));
     let mut layouts = Vec::new();
@@ -119,7 +118,7 @@ fn emit(ident: &Ident, repr: &Repr, variants: &[&Variant]) -> TokenStream {
             #codes
             // SAFETY: `check::exception` has looked at every variant.
             #[automatically_derived]
-            unsafe impl #krate::exception::UserException for #ident #copy {
+            unsafe impl #krate::exception::UserException for #ident {
                 const NAME: &'static __core::primitive::str = #enum_name;
                 const DETAILS: __core::primitive::usize = #most;
                 const LAYOUT: #krate::layout::Layout = #krate::layout::Layout::of("exception") #(#layouts)*;

@@ -1,6 +1,6 @@
 //! `#[launch_params]`.
 
-use crate::data::{device_data, docs_or, struct_bounds, twin};
+use crate::data::{Fields, device_data, docs_or, struct_bounds, twin};
 use crate::shape::{Field, Repr, Struct};
 use crate::support::{
     Errors, block, cfg_of, device_crate, device_crate_outside, may_begin, moved, name, no_arguments, place, place_of,
@@ -37,7 +37,7 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
         return quote!(#errors #item);
     };
     check(&model, &mut errors);
-    let data = device_data(&model, "launch-parameter struct");
+    let data = device_data(&model, Fields::Data, "launch-parameter struct");
     let twin = twin(&model, &mut errors);
     let (host, twin) = (twin.host, twin.items);
     let bounds = bounds(&model);
