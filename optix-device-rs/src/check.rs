@@ -32,6 +32,9 @@ impl<T: Copy> Copied for T {}
 /// Asserts it.
 pub const fn copied<T: Copied>() {}
 
+/// What a program names as its record is one.
+pub const fn record<T: crate::record::SbtRecord>() {}
+
 // ---- Payload parts -------------------------------------------------------------------------------------------------
 
 macro_rules! received {
@@ -423,6 +426,40 @@ impl<T> crate::view::Slice<T> {
         unreachable!()
     }
 }
+
+/// A view whose elements brackets name, of which there is none: a place in it would be a reference to memory that other launch
+/// indices write.
+#[diagnostic::on_unimplemented(
+    message = "elements of `{Self}` are not named by brackets",
+    label = "write `.get(i)` to read an element, and `.set(i, value)` to write one where the view is a `SliceMut` or `SliceMut2d`",
+    note = "the index of a `Slice` or `SliceMut` is a `u32`, that of a `SliceMut2d` a `UVec2`"
+)]
+pub trait NamedByBrackets {}
+
+macro_rules! not_named_by_brackets {
+    ($($view:ident),*) => {$(
+        #[doc(hidden)]
+        impl<T, I> core::ops::Index<I> for crate::view::$view<T>
+        where
+            Self: NamedByBrackets,
+        {
+            type Output = T;
+            fn index(&self, _: I) -> &T {
+                unreachable!()
+            }
+        }
+        #[doc(hidden)]
+        impl<T, I> core::ops::IndexMut<I> for crate::view::$view<T>
+        where
+            Self: NamedByBrackets,
+        {
+            fn index_mut(&mut self, _: I) -> &mut T {
+                unreachable!()
+            }
+        }
+    )*};
+}
+not_named_by_brackets!(Slice, SliceMut, SliceMut2d);
 
 /// Hits on triangles.
 ///

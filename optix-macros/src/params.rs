@@ -191,7 +191,9 @@ fn view(model: &Struct) -> TokenStream {
     let doc = format!("What a program sees of [`{}`]: a method for each field, which loads that field.", model.name());
     let outside = device_crate_outside();
     let members = model.fields.iter().map(|field| &field.member);
+    let not_assigned = not_assigned(model, &view);
     let impls = block(quote! {
+        #not_assigned
         // So that no method is unused.
         const _: () = {
             #(let _ = #view::#members;)*
@@ -225,6 +227,31 @@ fn view(model: &Struct) -> TokenStream {
         }
         #impls
     }
+}
+
+/// The fields, for the message that an assignment to one gives: the view leads there by `Deref`, which the compiler follows for
+/// fields that it does not find. They are private in a module of their own, so that nothing gets at them, and the name of their
+/// struct says why. The methods come first.
+fn not_assigned(model: &Struct, view: &Ident) -> Option<TokenStream> {
+    if model.fields.is_empty() {
+        return None;
+    }
+    let read_only = format_ident!("{}IsReadByMethodsAndWrittenOnlyThroughItsSliceMuts", model.name());
+    let members: Vec<_> = model.fields.iter().map(|field| &field.member).collect();
+    Some(quote! {
+        mod __read_only {
+            pub struct #read_only { #(#members: (),)* }
+            pub static FIELDS: #read_only = #read_only { #(#members: ()),* };
+        }
+        #[automatically_derived]
+        impl __core::ops::Deref for #view<'_> {
+            type Target = __read_only::#read_only;
+            #[inline(always)]
+            fn deref(&self) -> &__read_only::#read_only {
+                &__read_only::FIELDS
+            }
+        }
+    })
 }
 
 /// `LaunchParams`, the constant-memory symbol, and the loads from it.

@@ -3,7 +3,7 @@
 use super::parse::{Geometry, Pipeline};
 use crate::support::Errors;
 use quote::ToTokens;
-use syn::Error;
+use syn::{Error, Type};
 
 /// OptiX has eight payload types in a module (guide 14).
 const MAX_RAY_TYPES: usize = 8;
@@ -102,18 +102,30 @@ fn groups(pipeline: &Pipeline, errors: &mut Errors) {
                 ),
             );
         }
+        let missing: Vec<String> = pipeline
+            .rays
+            .iter()
+            .filter(|r| !group.rays.iter().any(|p| text(&p.ray) == text(&r.payload)))
+            .map(|r| path(&r.payload))
+            .collect();
+        let is_listed = |ray: &Type| pipeline.rays.iter().any(|r| text(&r.payload) == text(ray));
         for (j, programs) in group.rays.iter().enumerate() {
             let ray = path(&programs.ray);
             if group.rays[..j].iter().any(|p| text(&p.ray) == text(&programs.ray)) {
                 errors.at(&programs.ray, format!("ray type `{ray}` is twice in hit group `{record} on {geometry}`"));
             }
-            if !pipeline.rays.iter().any(|r| text(&r.payload) == text(&programs.ray)) {
+            if !is_listed(&programs.ray) {
+                let or = match missing.as_slice() {
+                    [] => String::new(),
+                    missing => format!(
+                        ", or write `{}` here, by which they list it, if `{ray}` is another name of that",
+                        missing.join("` or `")
+                    ),
+                };
+                let pipeline = &pipeline.ident;
                 errors.at(
                     &programs.ray,
-                    format!(
-                        "`{ray}` is not among the `rays` of `{}`: add `{ray} {{ miss: .. }}` there",
-                        pipeline.ident
-                    ),
+                    format!("`{ray}` is not among the `rays` of `{pipeline}`: add `{ray} {{ miss: .. }}` there{or}"),
                 );
             }
             match (group.geometry, &programs.intersection) {
@@ -134,13 +146,8 @@ fn groups(pipeline: &Pipeline, errors: &mut Errors) {
                 _ => {}
             }
         }
-        let missing: Vec<String> = pipeline
-            .rays
-            .iter()
-            .filter(|r| !group.rays.iter().any(|p| text(&p.ray) == text(&r.payload)))
-            .map(|r| path(&r.payload))
-            .collect();
-        if !missing.is_empty() {
+        // A ray type that is not listed is likely one that is missing, and has its message.
+        if !missing.is_empty() && group.rays.iter().all(|programs| is_listed(&programs.ray)) {
             let inner = if group.geometry == Geometry::Custom { " { intersection: .. }" } else { " {}" };
             let entries: Vec<String> = missing.iter().map(|ray| format!("{ray}{inner}")).collect();
             errors.push(Error::new(

@@ -1,7 +1,7 @@
 //! The pipeline type, its description for the host, and the entry points of both machines.
 
 use super::check::path;
-use super::names::{imports, is_function, type_of};
+use super::names::{imports, is_function, named, type_of};
 use super::parse::{Geometry, Group, Pipeline, Programs};
 use crate::compiler::has_cfg;
 use crate::program::Kind;
@@ -215,13 +215,13 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
     }).collect();
 
     let rays: Vec<_> = pipeline.rays.iter().map(|ray| {
-        let payload = &ray.payload;
+        let payload = &named(&ray.payload);
         let miss = ray.miss.as_ref().map(|program| {
             let record = miss_record(pipeline, payload, Some(program));
             let bound = quote!(MissProgram<#ident, #payload>);
             let types = quote!(#ident, #payload, _);
             entries.crosses("record", &record);
-            let entry = entries.add(Kind::Miss, program, &types, &bound, &[symbol(payload)]);
+            let entry = entries.add(Kind::Miss, program, &types, &bound, &[symbol(&ray.payload)]);
             quote!(#krate::host::ProgramDescription { entry: #entry, record: #krate::host::RecordLayout::of::<#record>() })
         });
         if miss.is_none() {
@@ -238,7 +238,7 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
 
     let mut groups = Vec::new();
     for (i, group) in pipeline.groups.iter().enumerate() {
-        let (record, index) = (&group.record, i as u32);
+        let (record, index) = (&named(&group.record), i as u32);
         let geometry = format_ident!("{}", group.geometry.name(), span = group.geometry_span);
         let span = place_of(record);
         let (there, pipeline_there) = (moved(krate, span), moved(ident, span));
@@ -246,7 +246,10 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
         impls.extend(quote_spanned! {span=>
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
-            unsafe impl #there::pipeline::HasHitGroup<#record, #krate::attributes::#geometry> for #pipeline_there {
+            unsafe impl #there::pipeline::HasHitGroup<#record, #krate::attributes::#geometry> for #pipeline_there
+            where
+                for<'__never> #record: #there::record::SbtRecord, // on trust: a record that is none is reported below
+            {
                 const INDEX: __core::primitive::u32 = #index;
             }
         });
@@ -420,10 +423,10 @@ fn describe_group(
     entries: &mut Entries<'_>,
     impls: &mut TokenStream,
 ) -> TokenStream {
-    let (ident, krate, record) = (&pipeline.ident, &device_crate(), &group.record);
+    let (ident, krate, record) = (&pipeline.ident, &device_crate(), &named(&group.record));
     let hits_of = |programs: &Programs| match &programs.intersection {
         Some(program) => {
-            let ray = &programs.ray;
+            let ray = named(&programs.ray);
             of_program(krate, program, &quote!(IntersectionProgram<#ident, #record, #ray>), "Attributes")
         }
         None => quote!(#krate::attributes::Triangles),
@@ -436,7 +439,7 @@ fn describe_group(
         .filter_map(|ray| {
             let programs =
                 group.rays.iter().find(|p| super::check::text(&p.ray) == super::check::text(&ray.payload))?;
-            let (ray, hits) = (&programs.ray, hits_of(programs));
+            let (ray, hits) = (&named(&programs.ray), hits_of(programs));
             match (first, &programs.intersection) {
                 // Of one program too, which may be written by hand, with hits that depend on the ray.
                 (Some(first), Some(program)) => {
@@ -452,7 +455,7 @@ fn describe_group(
             if programs.closesthit.is_none() {
                 impls.extend(nothing_to_write(krate, ray, "FromClosestHit"));
             }
-            let mut of = vec![symbol(record), symbol(ray)];
+            let mut of = vec![symbol(&group.record), symbol(&programs.ray)];
             if group.geometry == Geometry::Custom {
                 of.push("Custom".to_owned());
             }
@@ -495,7 +498,7 @@ fn describe_group(
 }
 
 /// `<sky as MissProgram<..>>::Record`, or `()` without a miss program.
-fn miss_record(pipeline: &Pipeline, payload: &syn::Type, program: Option<&Path>) -> TokenStream {
+fn miss_record(pipeline: &Pipeline, payload: &Ident, program: Option<&Path>) -> TokenStream {
     let (ident, krate) = (&pipeline.ident, &device_crate());
     match program {
         Some(program) => of_program(krate, program, &quote!(MissProgram<#ident, #payload>), "Record"),
@@ -506,7 +509,7 @@ fn miss_record(pipeline: &Pipeline, payload: &syn::Type, program: Option<&Path>)
 fn has_rays(pipeline: &Pipeline) -> TokenStream {
     let (ident, krate) = (&pipeline.ident, &device_crate());
     let impls = pipeline.rays.iter().enumerate().map(|(i, ray)| {
-        let (payload, index) = (&ray.payload, i as u32);
+        let (payload, index) = (&named(&ray.payload), i as u32);
         let span = place_of(payload);
         let krate = moved(krate, span);
         let has_ray = quote_spanned!(span=> #krate::pipeline::HasRay<#payload>);
@@ -526,7 +529,7 @@ fn has_rays(pipeline: &Pipeline) -> TokenStream {
 }
 
 /// Asserts that no program is missing here.
-fn nothing_to_write(krate: &Ident, payload: &syn::Type, role: &str) -> TokenStream {
+fn nothing_to_write(krate: &Ident, payload: &Ident, role: &str) -> TokenStream {
     let span = place_of(payload);
     let role = format_ident!("{role}", span = span);
     let krate = moved(krate, span);

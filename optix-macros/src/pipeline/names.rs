@@ -1,4 +1,4 @@
-//! The programs' types, by names of the macro's own.
+//! The programs' types, payloads and records, by names of the macro's own.
 //!
 //! A function without an attribute has no type of its name, and rustc would say so in words that help nobody. So each program
 //! is imported: by a `use`, which takes the function, and its type if it has one; and by a glob, which `use` takes precedence
@@ -6,22 +6,34 @@
 
 use super::emit::program_span;
 use super::parse::Pipeline;
+use crate::support::place_of;
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote, quote_spanned};
-use syn::{Ident, Path};
+use quote::{ToTokens, format_ident, quote, quote_spanned};
+use syn::{Ident, Path, Type};
 
 /// The name of a program's type; paths that differ have names that do.
 pub fn type_of(program: &Path) -> Ident {
-    let mut name = String::from("__program_");
-    for c in super::check::path(program).replace("r#", "").chars() {
+    format_ident!("__program_{}", word(program), span = program_span(program))
+}
+
+/// The name of a payload or record, at the place where it is mentioned: so a type that is not there is one error, at its first
+/// mention.
+pub fn named(ty: &Type) -> Ident {
+    format_ident!("__type_{}", word(ty), span = place_of(ty))
+}
+
+/// What is written, as a part of a name.
+fn word(tokens: &impl ToTokens) -> String {
+    let mut word = String::new();
+    for c in super::check::path(tokens).replace("r#", "").chars() {
         match c {
-            ':' => name.push_str("_1"),
-            '_' => name.push_str("_0"),
-            c if c.is_alphanumeric() => name.push(c),
-            c => name.push_str(&format!("_{:x}_", c as u32)),
+            ':' => word.push_str("_1"),
+            '_' => word.push_str("_0"),
+            c if c.is_alphanumeric() => word.push(c),
+            c => word.push_str(&format!("_{:x}_", c as u32)),
         }
     }
-    format_ident!("{name}", span = program_span(program))
+    word
 }
 
 /// What makes these names.
@@ -36,6 +48,18 @@ pub fn imports(pipeline: &Pipeline) -> TokenStream {
             programs.push(program);
         }
     }
+    let mut types: Vec<&Type> = Vec::new();
+    let payloads = pipeline.rays.iter().map(|ray| &ray.payload);
+    let records = pipeline.groups.iter().map(|group| &group.record);
+    for ty in payloads.chain(records) {
+        if !types.iter().any(|t| named(t) == named(ty)) {
+            types.push(ty);
+        }
+    }
+    let types = types.into_iter().map(|ty| {
+        let name = named(ty);
+        quote_spanned!(place_of(ty)=> type #name = #ty;)
+    });
     // A `use` of a name that is not there would fail, so there is a macro of that name.
     let macros = programs.iter().filter_map(|program| {
         let name = program.get_ident()?;
@@ -56,6 +80,7 @@ pub fn imports(pipeline: &Pipeline) -> TokenStream {
         }
         use __not_there::*;
         #(#uses)*
+        #(#types)*
     }
 }
 

@@ -3,7 +3,7 @@
 use super::kind::{Kind, Roles};
 use super::model::Program;
 use crate::shape::is_plain;
-use crate::support::{block, device_crate, moved, place_of};
+use crate::support::{block, device_crate, mentions, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::{GenericParam, Generics, Ident};
@@ -121,12 +121,18 @@ pub fn emit(program: &Program) -> TokenStream {
             (quote!(, __input: #input), quote!(-> #output))
         }
     };
+    let checked = checked_record(program);
+    if checked.is_some() {
+        let trusted = syn::parse_quote!(for<'__never> #record: #krate::record::SbtRecord);
+        generics.make_where_clause().predicates.push(trusted);
+    }
     let (impl_generics, _, where_clause) = generics.split_for_impl();
     let krate_there = moved(krate, program.context_span);
     let implemented = quote_spanned! {program.context_span=>
         #krate_there::program::#trait_there<#trait_arguments>
     };
     let items = block(quote! {
+            #checked
             #[automatically_derived]
             impl #impl_generics #implemented for #ident #where_clause {
                 #assoc
@@ -139,6 +145,23 @@ pub fn emit(program: &Program) -> TokenStream {
     quote!(#marker #items)
 }
 
+/// What reports once, where a program names its record, that it is none; the program's impl takes it on trust. `None` without a
+/// record, and for one that depends on a type parameter, which has bounds.
+fn checked_record(program: &Program) -> Option<TokenStream> {
+    let record = program.record.as_ref()?;
+    let mut parameters = program.generics.params.iter().filter_map(|parameter| match parameter {
+        GenericParam::Type(parameter) => Some(&parameter.ident),
+        GenericParam::Const(parameter) => Some(&parameter.ident),
+        GenericParam::Lifetime(_) => None,
+    });
+    if parameters.any(|parameter| mentions(record.to_token_stream(), &parameter.to_string())) {
+        return None;
+    }
+    let span = place_of(record);
+    let krate = moved(&device_crate(), span);
+    Some(quote_spanned!(span=> const _: () = #krate::check::record::<#record>();))
+}
+
 fn emit_callable(program: &Program) -> TokenStream {
     let Program { kind, ident, pipeline, arguments, result, .. } = program;
     let (krate, marker) = (&device_crate(), marker(ident));
@@ -148,7 +171,12 @@ fn emit_callable(program: &Program) -> TokenStream {
     let names: Vec<_> = (0..arguments.len()).map(|i| format_ident!("__argument_{i}")).collect();
     let context_argument = quote_spanned!(program.context_span=> __cx);
     let call = quote_spanned!(program.result_span=> #ident(#context_argument #record_argument #(, #names)*));
-    let generics = without_defaults(&program.generics);
+    let mut generics = without_defaults(&program.generics);
+    let checked = checked_record(program);
+    if checked.is_some() {
+        let trusted = syn::parse_quote!(for<'__never> #record: #krate::record::SbtRecord);
+        generics.make_where_clause().predicates.push(trusted);
+    }
     let (impl_generics, _, where_clause) = generics.split_for_impl();
     let trait_there = Ident::new(&kind.program_trait().to_string(), program.context_span);
     let krate_there = moved(krate, program.context_span);
@@ -165,6 +193,7 @@ fn emit_callable(program: &Program) -> TokenStream {
         fn run(__cx: &#krate::program::#context<#pipeline>, __record: &#record, #names: #arguments) -> #result #body
     };
     let items = block(quote! {
+            #checked
             #[automatically_derived]
             impl #impl_generics #implemented for #ident #where_clause {
                 #record_type
