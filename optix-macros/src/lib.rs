@@ -17,6 +17,7 @@ mod fuzz;
 mod params;
 mod payload;
 mod pipeline;
+mod place;
 mod program;
 mod record;
 mod shape;

@@ -1,9 +1,10 @@
 //! `#[launch_params]`.
 
 use crate::data::{Fields, device_data, docs_or, struct_bounds, twin};
+use crate::place::place;
 use crate::shape::{Field, Repr, Struct};
 use crate::support::{
-    Errors, block, cfg_of, device_crate, device_crate_outside, may_begin, moved, name, no_arguments, place, place_of,
+    Errors, block, cfg_of, device_crate, device_crate_outside, may_begin, moved, name, no_arguments, place_of,
 };
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};

@@ -3,8 +3,6 @@
 use crate::{compiler, depth, source};
 use proc_macro2::{Group, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
-use std::collections::BTreeSet;
-use std::sync::{Mutex, PoisonError};
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{Attribute, DeriveInput, Error, Ident, Path, Type};
@@ -169,39 +167,5 @@ pub fn ungroup(mut ty: &Type) -> &Type {
             Type::Paren(paren) => &paren.elem,
             other => return other,
         };
-    }
-}
-
-/// Eight digits that tell apart things of one name, the same in host and device builds: they come from the package and
-/// from the place in its source, not from how a compiler prints tokens or where the package lies on disk. What a macro of the
-/// user's makes several times has one place; its digits follow from how many came before.
-pub fn place(span: Span, name: &str) -> String {
-    let mut hash = 0xcbf2_9ce4_8422_2325u64;
-    let mut mix = |text: &str| {
-        for byte in text.bytes().chain([0]) {
-            hash = (hash ^ byte as u64).wrapping_mul(0x100_0000_01b3);
-        }
-    };
-    mix(name);
-    for package in ["CARGO_PKG_NAME", "CARGO_PKG_VERSION"] {
-        mix(&std::env::var(package).unwrap_or_default());
-    }
-    if proc_macro::is_available() {
-        let span = span.unwrap();
-        let file = span.file();
-        let mut parts = file.rsplit(['/', '\\']);
-        mix(parts.next().unwrap_or_default());
-        mix(parts.next().unwrap_or_default());
-        mix(&span.line().to_string());
-        mix(&span.column().to_string());
-    }
-    static GIVEN: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
-    let mut given = GIVEN.lock().unwrap_or_else(PoisonError::into_inner);
-    loop {
-        let digits = (hash ^ hash >> 32) as u32;
-        if given.insert(digits) {
-            return format!("{digits:08x}");
-        }
-        hash = hash.wrapping_mul(0x100_0000_01b3) ^ 1;
     }
 }

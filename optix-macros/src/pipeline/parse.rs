@@ -268,6 +268,10 @@ fn program(input: ParseStream<'_>) -> Result<Path> {
     loop {
         let leads = input.peek(Token![crate]) || input.peek(Token![self]) || input.peek(Token![super]);
         let segment = if leads { input.call(Ident::parse_any)? } else { input.parse::<Ident>()? };
+        if leads && !input.peek(Token![::]) {
+            let message = format!("`{segment}` is a module: name a program in it, such as `{segment}::lambert`");
+            return Err(Error::new(segment.span(), message));
+        }
         path.segments.push_value(segment.into());
         if with_arguments(input) {
             return Err(
@@ -440,13 +444,13 @@ mod tests {
             struct P {
                 params: F,
                 wombat: [1, 2],
-                raygen: [a, 7, b],
+                raygen: [a, 7, self::b, crate, a::super],
                 rays: { R { miss: m }, S { hit: x }, T {} },
             }
         };
         let pipeline = parse(tokens, &mut errors).unwrap();
         assert_eq!(pipeline.raygen.len(), 2);
         assert_eq!(pipeline.rays.len(), 3);
-        assert_eq!(errors.into_tokens().to_string().matches("compile_error").count(), 3);
+        assert_eq!(errors.into_tokens().to_string().matches("compile_error").count(), 5);
     }
 }
