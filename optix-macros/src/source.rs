@@ -1,6 +1,7 @@
-//! What a macro does not see: rustc takes out what `#[cfg(..)]` says no to before a derive runs.
+//! What a macro does not see: rustc takes out what `#[cfg(..)]` says no to before a derive runs, and shows an attribute its item
+//! without what that is in. What is found here is for messages only.
 
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::Data;
 use syn::spanned::Spanned;
@@ -63,9 +64,146 @@ fn names(tokens: TokenStream, is_it: fn(&str) -> bool) -> bool {
     })
 }
 
+/// Whether the braces that hold what is at `span` are those of an `impl` or a `trait`. Where the source can't be read, they are
+/// not.
+pub fn is_in_impl(span: Span) -> bool {
+    if !proc_macro::is_available() {
+        return false;
+    }
+    let span = span.unwrap();
+    let text = span.local_file().and_then(|file| std::fs::read_to_string(file).ok());
+    text.is_some_and(|text| ends_in_impl(before(&text, span.line(), span.column())))
+}
+
+/// The text before a place; lines and characters count from 1.
+fn before(text: &str, line: usize, column: usize) -> &str {
+    let begin: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let rest = text.get(begin..).unwrap_or_default();
+    let length = rest.char_indices().nth(column.saturating_sub(1)).map_or(rest.len(), |(at, _)| at);
+    text.get(..begin + length).unwrap_or_default()
+}
+
+/// Whether the innermost braces that are open at the text's end are those of an `impl` or a `trait`.
+fn ends_in_impl(text: &str) -> bool {
+    // What is open: braces with whether they are of an impl, parentheses and brackets without.
+    let mut open: Vec<(char, bool)> = Vec::new();
+    // Whether what began last is an impl: `None` before the word that says so.
+    let mut is_impl = None;
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let length = token(rest);
+        let (word, after) = rest.split_at(length);
+        rest = after;
+        let outside = !matches!(open.last(), Some(('(' | '[', _)));
+        match first {
+            '{' => open.push(('{', is_impl == Some(true))),
+            '(' | '[' => open.push((first, false)),
+            '}' | ')' | ']' => drop(open.pop()),
+            _ if outside && (first.is_alphabetic() || first == '_') && is_impl.is_none() => match word {
+                "pub" | "unsafe" | "default" | "auto" => {}
+                _ => is_impl = Some(matches!(word, "impl" | "trait")),
+            },
+            _ => {}
+        }
+        if matches!(first, '{' | '}') || first == ';' && outside {
+            is_impl = None;
+        }
+    }
+    matches!(open.last(), Some(('{', true)))
+}
+
+/// The length of the first token of a text that is not empty: a comment, a literal with quotes, a word, or a character.
+fn token(text: &str) -> usize {
+    let first = text.chars().next().map_or(0, char::len_utf8);
+    let until = |end: &str, from: usize| text[from..].find(end).map_or(text.len(), |at| from + at + end.len());
+    if text.starts_with("//") {
+        return until("\n", 2);
+    }
+    if text.starts_with("/*") {
+        let (mut depth, mut at) = (0, 0);
+        while let Some(found) = text[at..].find(['/', '*']) {
+            at += found;
+            match text.as_bytes().get(at..at + 2) {
+                Some(b"/*") => (depth, at) = (depth + 1, at + 2),
+                Some(b"*/") => (depth, at) = (depth - 1, at + 2),
+                _ => at += 1,
+            }
+            if depth == 0 {
+                return at;
+            }
+        }
+        return text.len();
+    }
+    let word = text.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(text.len());
+    let (prefix, quoted) = text.split_at(word);
+    let hashes = quoted.len() - quoted.trim_start_matches('#').len();
+    if matches!(prefix, "r" | "br" | "cr") && quoted[hashes..].starts_with('"') {
+        return until(&format!("\"{}", "#".repeat(hashes)), word + hashes + 1);
+    }
+    let quote = match quoted.chars().next() {
+        Some('"') if matches!(prefix, "" | "b" | "c") => '"',
+        // A lifetime has no second quote behind its first character.
+        Some('\'') if matches!(prefix, "" | "b") => match quoted[1..].chars().next() {
+            Some('\\') => '\'',
+            Some(c) if quoted[1 + c.len_utf8()..].starts_with('\'') => return word + 2 + c.len_utf8(),
+            _ => return word.max(first),
+        },
+        _ => return word.max(first),
+    };
+    let mut escaped = false;
+    for (at, c) in quoted.char_indices().skip(1) {
+        match c {
+            _ if escaped => escaped = false,
+            '\\' => escaped = true,
+            _ if c == quote => return word + at + 1,
+            _ => {}
+        }
+    }
+    text.len()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::of_field;
+    use super::{before, ends_in_impl, of_field, token};
+
+    #[test]
+    fn what_is_in_an_impl_is_seen() {
+        for text in [
+            "impl Camera { ",
+            "mod a { pub struct B; #[doc(hidden)] unsafe impl<T> C for B where T: Fn(u32) { fn d() {} \n #[raygen] pub fn ",
+            "pub(crate) trait Shades { const A: [u8; 2] = [b'{', b'\\'']; fn ",
+            "/* impl { /* */ */ impl<'a> A<'a> { // }\n fn ",
+            "const TEXT: &str = \"}\\\"{\"; impl A { fn b() { r#\"\"}\"#; 'x'; } fn ",
+        ] {
+            assert!(ends_in_impl(text), "{text}");
+        }
+        for text in [
+            "",
+            "fn a() -> impl B { fn ",
+            "impl A { fn b() { fn ",
+            "impl A {} mod b { fn ",
+            "macro_rules! shader { () => { fn ",
+            "// impl A {\n fn ",
+            "const A: &str = r##\"impl B { \"# \"##; fn ",
+            "const A: char = '{'; fn ",
+            "impl A { } } } fn ",
+            "\"",
+            "r#\"",
+            "'",
+            "/*",
+        ] {
+            assert!(!ends_in_impl(text), "{text}");
+        }
+        assert_eq!(before("a\nbä c\n", 2, 3), "a\nbä");
+        assert_eq!(before("a\n", 9, 9), "a\n");
+    }
+
+    #[test]
+    fn every_token_has_a_length() {
+        for text in ["ä", "'ä", "'ä'", "'\\''", "b'", "r", "r#a", "/*/", "\"\\", "c\"ä\"", "_"] {
+            assert!((1..=text.len()).contains(&token(text)) && text.is_char_boundary(token(text)), "{text}");
+        }
+    }
 
     #[test]
     fn what_depends_on_the_target_is_seen() {

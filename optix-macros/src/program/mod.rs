@@ -46,9 +46,9 @@ pub fn expand(kind: Kind, arguments: TokenStream, item: TokenStream) -> TokenStr
             ),
         );
     }
-    let program = model::Program::new(kind, &function, &mut errors);
     // In an impl there is no room for the type that stands for the program.
     let in_impl = model::is_in_impl(&function.sig);
+    let program = model::Program::new(kind, &function, in_impl, &mut errors);
     let items = match program {
         _ if in_impl => TokenStream::new(),
         Some(program) if errors.is_empty() => emit::emit(&program),

@@ -3,6 +3,7 @@
 use super::callable;
 use super::check::{calls_itself, is_for_the_call, names_its_payload, qualifiers};
 use super::kind::Kind;
+use crate::source;
 use crate::support::{Errors, cfg_of, mentions, place_of, ungroup};
 use proc_macro2::Span;
 use quote::ToTokens;
@@ -38,8 +39,8 @@ pub struct Program {
 }
 
 impl Program {
-    /// Reads a signature.
-    pub fn new(kind: Kind, function: &ItemFn, errors: &mut Errors) -> Option<Self> {
+    /// Reads a signature. `in_impl` says whether the function [`is_in_impl`].
+    pub fn new(kind: Kind, function: &ItemFn, in_impl: bool, errors: &mut Errors) -> Option<Self> {
         let sig = &function.sig;
         qualifiers(kind, function, errors);
         calls_itself(function, errors);
@@ -95,13 +96,12 @@ impl Program {
         }
         let returns_unit_part = output.is_none()
             && matches!(&sig.output, ReturnType::Type(_, ty) if matches!(ungroup(ty), Type::Tuple(t) if t.elems.len() == 2));
-        if sig.receiver().is_none() && is_in_impl(sig) {
+        if sig.receiver().is_none() && in_impl {
+            let (phrase, ident) = (kind.phrase(), &sig.ident);
+            let types = if names_self(sig) { ", and name the types that `Self` stands for" } else { "" };
             errors.push(Error::new(
-                sig.ident.span(),
-                format!(
-                    "{} is a free function, outside any `impl`: name the types that `Self` stands for",
-                    kind.phrase()
-                ),
+                ident.span(),
+                format!("{phrase} is a free function, no method: move `{ident}` out of the `impl` or `trait`{types}"),
             ));
         }
         let (pipeline, hits) = context?;
@@ -173,9 +173,13 @@ impl Program {
     }
 }
 
-/// Whether the function can only be in an impl or a trait, where there is no room for the type that stands for it.
+/// Whether the function is in an impl or a trait, where there is no room for the type that stands for it.
 pub fn is_in_impl(sig: &syn::Signature) -> bool {
-    sig.receiver().is_some() || mentions(sig.to_token_stream(), "Self")
+    sig.receiver().is_some() || names_self(sig) || source::is_in_impl(sig.ident.span())
+}
+
+fn names_self(sig: &syn::Signature) -> bool {
+    mentions(sig.to_token_stream(), "Self")
 }
 
 /// Pipeline and hits of `&ClosestHit<PathTracer, Triangles>`.
