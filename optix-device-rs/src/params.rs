@@ -60,6 +60,8 @@ pub struct Field {
     pub size: usize,
     /// Whether the host may specialise it away (`#[bound]`).
     pub bound: bool,
+    /// Whether it is a view of device memory.
+    pub view: bool,
 }
 
 /// A field that the host may bind to a constant when it builds the pipeline; `Frame::MAX_BOUNCES` for a field

@@ -119,13 +119,14 @@ fn ident_of(field: &Field) -> Option<&Ident> {
 
 fn field_value(model: &Struct, field: &Field) -> TokenStream {
     let (krate, ident, member, ty) = (&device_crate(), &model.ident, &field.member, &field.ty);
-    let (name, bound) = (field.name(), field.bound.is_some());
+    let (name, bound, view) = (field.name(), field.bound.is_some(), field.view);
     quote! {
         #krate::params::Field {
             name: #name,
             offset: __core::mem::offset_of!(#ident, #member),
             size: __core::mem::size_of::<#ty>(),
             bound: #bound,
+            view: #view,
         }
     }
 }

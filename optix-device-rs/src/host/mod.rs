@@ -19,6 +19,6 @@ pub use description::{
 };
 pub use frame::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState, PayloadWatch};
 pub use memory::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, MemoryError, TriangleTable, World};
-pub(crate) use reach::memory;
 pub use reach::{ByHandle, Handle, Reach};
+pub(crate) use reach::{memory, name_of};
 pub use twin::{KeepAlive, Kept, Twin, View};

@@ -5,8 +5,11 @@
 //! launch that keeps the memory alive knows the number, and any other ends with an error that says so.
 
 use super::end;
+use crate::params::Field;
 use core::cell::Cell;
 use core::ptr::NonNull;
+use std::format;
+use std::string::String;
 use std::sync::{Mutex, PoisonError};
 use std::vec::Vec;
 
@@ -97,7 +100,11 @@ impl<T: Copy> ByHandle<T> {
 
 /// The memory that a launch keeps alive.
 #[derive(Clone, Debug, Default)]
-pub struct Reach(ByHandle<NonNull<u8>>);
+pub struct Reach {
+    memory: ByHandle<NonNull<u8>>,
+    /// Launch parameters that hold a view, by its number; for messages.
+    parameters: Vec<(u64, &'static str)>,
+}
 
 // SAFETY: addresses; the memory is shared by design, and read and written with atomics only (`insert`).
 unsafe impl Send for Reach {}
@@ -116,7 +123,18 @@ impl Reach {
     /// While this value or a clone of it lives, as much as the views with this handle show is there, and everybody reads and writes
     /// it with atomics of the views' width ([`Element`](crate::view::Element)).
     pub unsafe fn insert(&mut self, handle: &Handle, memory: NonNull<u8>) {
-        self.0.insert(handle, memory);
+        self.memory.insert(handle, memory);
+    }
+
+    /// Notes which launch parameters hold views of this memory, for messages: of `params`, the bytes of the launch's.
+    pub fn name(&mut self, fields: &[Field], params: &[u8]) {
+        for field in fields.iter().filter(|field| field.view) {
+            // A view begins with its number, which is aligned to eight bytes.
+            let bytes = params.get(field.offset..field.offset + field.size).unwrap_or_default();
+            let numbers = bytes.as_chunks().0.iter().map(|bytes| u64::from_le_bytes(*bytes));
+            let held = numbers.filter(|&number| self.memory.get(number).is_some());
+            self.parameters.extend(held.map(|number| (number, field.name)));
+        }
     }
 
     /// Runs programs of the launch that keeps this memory.
@@ -143,9 +161,23 @@ impl Reach {
 pub(crate) fn memory(handle: u64) -> NonNull<u8> {
     // SAFETY: `enter` borrows the value for as long as it stands there.
     let running = RUNNING.get().map(|reach| unsafe { reach.as_ref() });
-    match running.and_then(|reach| reach.0.get(handle)) {
+    match running.and_then(|reach| reach.memory.get(handle)) {
         Some(memory) => memory,
         None => not_held(handle, running.is_some()),
+    }
+}
+
+/// Where the running launch holds a view, in words that end a message: in launch parameters, else in a record.
+pub(crate) fn name_of(handle: u64) -> String {
+    // SAFETY: `enter` borrows the value for as long as it stands there.
+    let Some(reach) = RUNNING.get().map(|reach| unsafe { reach.as_ref() }) else { return String::new() };
+    let parameters = reach.parameters.iter().filter(|(number, _)| *number == handle);
+    let mut names: Vec<&str> = parameters.map(|(_, name)| *name).collect();
+    names.dedup();
+    match (names.as_slice(), reach.memory.get(handle)) {
+        ([], None) => String::new(),
+        ([], Some(_)) => " (a view in a record)".into(),
+        (names, _) => format!(" (launch parameter `{}`)", names.join("` or `")),
     }
 }
 
@@ -166,7 +198,7 @@ fn not_held(handle: u64, running: bool) -> NonNull<u8> {
     // Destructors that run while their program is unwound use views as ever.
     // SAFETY: `enter` borrows the value until the programs of the launch index are left.
     let closed = end::closed().map(|reach| unsafe { reach.as_ref() });
-    if let Some(memory) = closed.and_then(|reach| reach.0.get(handle)) {
+    if let Some(memory) = closed.and_then(|reach| reach.memory.get(handle)) {
         return memory;
     }
     end::fail(if running || closed.is_some() {
@@ -191,6 +223,25 @@ mod tests {
     fn within(reach: &Reach, programs: impl FnOnce()) {
         // SAFETY: this is no program, and the values of these tests outlive the calls.
         unsafe { reach.enter(programs) }
+    }
+
+    #[test]
+    fn a_message_names_where_a_view_is_held() {
+        let (handle, other, mut memory) = (Handle::issue(), Handle::issue(), 0u64);
+        let mut reach = Reach::default();
+        // SAFETY: nobody reads or writes there.
+        unsafe { reach.insert(&handle, NonNull::from(&mut memory).cast()) };
+        within(&reach, || assert_eq!(name_of(handle.number()), " (a view in a record)"));
+        // A number that is the view's by chance, and two fields with views: of both the same one, and of the first another, too.
+        let field = |name, offset, view| Field { name, offset, size: 16, bound: false, view };
+        let fields = [field("count", 0, false), field("first", 16, true), field("second", 32, true)];
+        let words = [handle.number(), 0, other.number(), handle.number(), handle.number(), 7];
+        reach.name(&fields, words.map(u64::to_le_bytes).as_flattened());
+        within(&reach, || {
+            assert_eq!(name_of(handle.number()), " (launch parameter `first` or `second`)");
+            assert_eq!(name_of(other.number()), "");
+        });
+        assert_eq!(name_of(handle.number()), "");
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::TraceCall;
 use crate::callable::Signature;
 use crate::exception::MAX_DETAILS;
 use crate::host::end;
-use crate::host::{CallableCall, ExceptionState, Frame};
+use crate::host::{CallableCall, ExceptionState, Frame, name_of};
 use crate::params::LaunchParams;
 use crate::program::Transform;
 use crate::words::{MAX_PAYLOAD_WORDS, WordBuffer, Words, part, part_mut};
@@ -95,8 +95,13 @@ pub fn place_if<const N: usize>(
     offset: u64,
     message: core::fmt::Arguments<'_>,
 ) -> *mut u8 {
-    for (index, len) in in_range {
-        check(index, len, message);
+    #[cold]
+    #[inline(never)]
+    fn out_of_range(view: u64, message: core::fmt::Arguments<'_>, at: &Location<'_>) -> ! {
+        end::fail(format!("{message}, at {at}{}", name_of(view)))
+    }
+    if in_range.iter().any(|(index, len)| index >= len) {
+        out_of_range(view, message, Location::caller());
     }
     place(view).wrapping_add(offset as usize)
 }

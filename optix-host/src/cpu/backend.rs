@@ -175,6 +175,7 @@ struct CpuPipeline {
 impl Linked for CpuPipeline {
     fn launch(&self, raygen: usize, params: &[u8], kept: &[Kept], dimensions: [u32; 3]) -> Result<Box<dyn Running>> {
         let mut reached = reached(self.kept.iter().chain(kept));
+        reached.memory.name(self.plan.description.params.fields, params);
         reached.callables = self.callables.clone();
         let job = Job::new(&self.plan, &self.sbt, params, reached, raygen, dimensions, self.checked);
         let complaints = machine::run(job)?;
