@@ -8,6 +8,7 @@ use crate::program::{AccelHandle, Face, HitKind, InstanceHandle, PrimitiveType, 
 use crate::ray::{Ray, RayFlags, Traversable};
 use crate::spawn::SurfacePoint;
 use core::fmt::Debug;
+use core::marker::PhantomData;
 use glam::{Vec2, Vec3};
 
 // ---- Views ---------------------------------------------------------------------------------------------------------
@@ -98,7 +99,7 @@ returned! {
 /// A place is of this type, and not only of one that leads to it by `Deref`: what a user's type is called may mean another type
 /// where a macro writes it again.
 #[inline(always)]
-pub const fn same<T>(_: *const T, _: core::marker::PhantomData<T>) {}
+pub const fn same<T>(_: *const T, _: PhantomData<T>) {}
 
 /// The codes of an exception are different.
 #[track_caller]
@@ -601,6 +602,20 @@ pub const fn attribute_words(name: &str, words: usize) {
         panic!("{}", text.as_str());
     }
 }
+
+/// The type by which `pipeline!` knows a program: whether it was made by an attribute. rustc prefers what stands for functions
+/// without one, which has the constant itself.
+pub struct Program<T>(PhantomData<T>);
+impl<const N: usize> Program<[(); N]> {
+    /// It was not.
+    pub const HAS_ATTRIBUTE: bool = false;
+}
+/// All others.
+pub trait HasAttribute {
+    /// It was.
+    const HAS_ATTRIBUTE: bool = true;
+}
+impl<T> HasAttribute for Program<T> {}
 
 /// What `pipeline!` names is a function with an attribute, which made the type of its name.
 #[track_caller]

@@ -30,6 +30,10 @@ pub unsafe trait Pipeline: Sized + 'static {
     /// The types that cross between host and device in it.
     #[doc(hidden)]
     const CROSSINGS: &'static [Crossing];
+    /// The launch parameters as a value, for the host.
+    #[doc(hidden)]
+    #[cfg(not(target_arch = "nvptx64"))]
+    const PARAMS_DESCRIPTION: crate::host::ParamsDescription = crate::host::ParamsDescription::of::<Self::Params>();
     /// All of it as a value, for the host.
     #[cfg(not(target_arch = "nvptx64"))]
     const DESCRIPTION: crate::host::PipelineDescription;

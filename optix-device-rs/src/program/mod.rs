@@ -205,9 +205,6 @@ impl<P, A: Attributes> Intersection<P, A> {
     label = "expected a function with `#[raygen]` whose context is `&RayGen<{P}>`"
 )]
 pub trait RayGenProgram<P: Pipeline> {
-    /// False for what stands in for a function without an attribute.
-    #[doc(hidden)]
-    const MARKED: bool = true;
     /// What it reads from its record; `()` if nothing.
     type Record: SbtRecord;
     /// Calls the function.
@@ -221,9 +218,6 @@ pub trait RayGenProgram<P: Pipeline> {
     note = "expected `#[miss] fn(ms: &Miss<{P}>, [record: &..], [ray: {R}AtMiss]) -> {R}FromMiss`; leave out what the payload does not have"
 )]
 pub trait MissProgram<P: Pipeline, R: Payload> {
-    /// False for what stands in for a function without an attribute.
-    #[doc(hidden)]
-    const MARKED: bool = true;
     /// What it reads from its record; `()` if nothing.
     type Record: SbtRecord;
     /// Calls the function.
@@ -237,9 +231,6 @@ pub trait MissProgram<P: Pipeline, R: Payload> {
     note = "expected `#[closesthit] fn(hit: &ClosestHit<{P}, {A}>, [record: &{Rec}], [ray: {R}AtClosestHit]) -> {R}FromClosestHit`; leave out what the payload does not have"
 )]
 pub trait ClosestHitProgram<P: Pipeline, A: Attributes, Rec: SbtRecord, R: Payload> {
-    /// False for what stands in for a function without an attribute.
-    #[doc(hidden)]
-    const MARKED: bool = true;
     /// Calls the function.
     fn run(cx: &ClosestHit<P, A>, record: &Rec, input: R::AtClosestHit) -> R::FromClosestHit;
 }
@@ -251,9 +242,6 @@ pub trait ClosestHitProgram<P: Pipeline, A: Attributes, Rec: SbtRecord, R: Paylo
     note = "expected `#[anyhit] fn(hit: &AnyHit<{P}, {A}>, [record: &{Rec}], [ray: {R}AtAnyHit]) -> Decision`, or `-> (Decision, {R}FromAnyHit)` where it writes the payload"
 )]
 pub trait AnyHitProgram<P: Pipeline, A: Attributes, Rec: SbtRecord, R: Payload> {
-    /// False for what stands in for a function without an attribute.
-    #[doc(hidden)]
-    const MARKED: bool = true;
     /// Calls the function.
     fn run(cx: &AnyHit<P, A>, record: &Rec, input: R::AtAnyHit) -> (Decision, R::FromAnyHit);
 }
@@ -265,9 +253,6 @@ pub trait AnyHitProgram<P: Pipeline, A: Attributes, Rec: SbtRecord, R: Payload> 
     note = "expected `#[intersection] fn(isect: &Intersection<{P}, ..>, [record: &{Rec}], [ray: {R}AtIntersection]) [-> {R}FromIntersection]`"
 )]
 pub trait IntersectionProgram<P: Pipeline, Rec: SbtRecord, R: Payload> {
-    /// False for what stands in for a function without an attribute.
-    #[doc(hidden)]
-    const MARKED: bool = true;
     /// What its hits carry.
     type Attributes: Reported;
     /// Calls the function.
@@ -280,9 +265,6 @@ pub trait IntersectionProgram<P: Pipeline, Rec: SbtRecord, R: Payload> {
     label = "expected a function with `#[direct_callable]` whose context is `&DirectCallable<{P}>`"
 )]
 pub trait DirectCallableProgram<P: Pipeline> {
-    /// False for what stands in for a function without an attribute.
-    #[doc(hidden)]
-    const MARKED: bool = true;
     /// What it reads from its record; `()` if nothing.
     type Record: SbtRecord;
     /// What it takes and returns, as a function type.
@@ -301,9 +283,6 @@ pub trait DirectCallableProgram<P: Pipeline> {
     label = "expected a function with `#[continuation_callable]` whose context is `&ContinuationCallable<{P}>`"
 )]
 pub trait ContinuationCallableProgram<P: Pipeline> {
-    /// False for what stands in for a function without an attribute.
-    #[doc(hidden)]
-    const MARKED: bool = true;
     /// What it reads from its record; `()` if nothing.
     type Record: SbtRecord;
     /// What it takes and returns, as a function type.
@@ -327,9 +306,6 @@ type Returned<F> = <F as Signature>::Result;
     label = "expected a function with `#[exception]` whose context is `&Exception<{P}>`"
 )]
 pub trait ExceptionProgram<P: Pipeline> {
-    /// False for what stands in for a function without an attribute.
-    #[doc(hidden)]
-    const MARKED: bool = true;
     /// What it reads from its record; `()` if nothing.
     type Record: SbtRecord;
     /// Calls the function.

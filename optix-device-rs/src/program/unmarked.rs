@@ -7,21 +7,18 @@ use crate::payload::Part;
 
 #[diagnostic::do_not_recommend]
 impl<const N: usize, P: Pipeline> RayGenProgram<P> for [(); N] {
-    const MARKED: bool = false;
     type Record = ();
     fn run(_: &RayGen<P>, _: &()) {}
 }
 
 #[diagnostic::do_not_recommend]
 impl<const N: usize, P: Pipeline> ExceptionProgram<P> for [(); N] {
-    const MARKED: bool = false;
     type Record = ();
     fn run(_: &Exception<P>, _: &()) {}
 }
 
 #[diagnostic::do_not_recommend]
 impl<const N: usize, P: Pipeline, R: Payload> MissProgram<P, R> for [(); N] {
-    const MARKED: bool = false;
     type Record = ();
     fn run(_: &Miss<P>, _: &(), _: R::AtMiss) -> R::FromMiss {
         nothing()
@@ -32,7 +29,6 @@ impl<const N: usize, P: Pipeline, R: Payload> MissProgram<P, R> for [(); N] {
 impl<const N: usize, P: Pipeline, A: Attributes, Rec: SbtRecord, R: Payload> ClosestHitProgram<P, A, Rec, R>
     for [(); N]
 {
-    const MARKED: bool = false;
     fn run(_: &ClosestHit<P, A>, _: &Rec, _: R::AtClosestHit) -> R::FromClosestHit {
         nothing()
     }
@@ -40,7 +36,6 @@ impl<const N: usize, P: Pipeline, A: Attributes, Rec: SbtRecord, R: Payload> Clo
 
 #[diagnostic::do_not_recommend]
 impl<const N: usize, P: Pipeline, A: Attributes, Rec: SbtRecord, R: Payload> AnyHitProgram<P, A, Rec, R> for [(); N] {
-    const MARKED: bool = false;
     fn run(_: &AnyHit<P, A>, _: &Rec, _: R::AtAnyHit) -> (Decision, R::FromAnyHit) {
         (Decision::Accept, nothing())
     }
@@ -48,7 +43,6 @@ impl<const N: usize, P: Pipeline, A: Attributes, Rec: SbtRecord, R: Payload> Any
 
 #[diagnostic::do_not_recommend]
 impl<const N: usize, P: Pipeline, Rec: SbtRecord, R: Payload> IntersectionProgram<P, Rec, R> for [(); N] {
-    const MARKED: bool = false;
     type Attributes = NoHits;
     fn run(_: &Intersection<P, NoHits>, _: &Rec, _: R::AtIntersection) -> R::FromIntersection {
         nothing()
@@ -57,7 +51,6 @@ impl<const N: usize, P: Pipeline, Rec: SbtRecord, R: Payload> IntersectionProgra
 
 #[diagnostic::do_not_recommend]
 impl<const N: usize, P: Pipeline> DirectCallableProgram<P> for [(); N] {
-    const MARKED: bool = false;
     type Record = ();
     type Signature = fn();
     fn run(_: &DirectCallable<P>, _: &(), (): ()) {}
@@ -65,7 +58,6 @@ impl<const N: usize, P: Pipeline> DirectCallableProgram<P> for [(); N] {
 
 #[diagnostic::do_not_recommend]
 impl<const N: usize, P: Pipeline> ContinuationCallableProgram<P> for [(); N] {
-    const MARKED: bool = false;
     type Record = ();
     type Signature = fn();
     fn run(_: &ContinuationCallable<P>, _: &(), (): ()) {}

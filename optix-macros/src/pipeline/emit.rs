@@ -128,10 +128,14 @@ impl Entries<'_> {
             }
         });
         let (function, attribute) = (path(program), kind.attribute());
-        let (marked, is_function) = (of_program(krate, program, bound, "MARKED"), is_function(program));
+        let (of, is_function) = (type_of(program), is_function(program));
         let there = moved(krate, span);
         self.items.extend(quote_spanned! {span=>
-            const _: () = #there::check::is_program(#marked, { #is_function }, #function, #attribute);
+            const _: () = {
+                use #there::check::HasAttribute as _;
+                let __has_attribute = #there::check::Program::<#of>::HAS_ATTRIBUTE;
+                #there::check::is_program(__has_attribute, { #is_function }, #function, #attribute);
+            };
         });
         quote!(#krate::host::Entry { name: #entry_name, function: #function, run: #host })
     }
@@ -184,6 +188,8 @@ fn structure(pipeline: &Pipeline) -> TokenStream {
 
 pub fn emit(pipeline: &Pipeline) -> TokenStream {
     let Pipeline { ident, params, .. } = pipeline;
+    // Where an error is that says the struct is private and the pipeline is not.
+    let params_type = params.as_ref().map(|params| quote_spanned!(place_of(params)=> type Params = #params;));
     let krate = &device_crate();
     let pipeline_name = name(ident);
     let structure = structure(pipeline);
@@ -284,14 +290,14 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #krate::pipeline::Pipeline for #ident {
-                type Params = #params;
+                #params_type
                 type Exception = #exception;
                 const RAY_TYPES: __core::primitive::u32 = #ray_types;
                 const CROSSINGS: &'static [#krate::layout::Crossing] = &__CROSSINGS;
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
                     name: #pipeline_name,
-                    params: #krate::host::ParamsDescription::of::<<Self as #krate::pipeline::Pipeline>::Params>(),
+                    params: <Self as #krate::pipeline::Pipeline>::PARAMS_DESCRIPTION,
                     raygen: &[#(#raygen),*],
                     rays: &[#(#rays),*],
                     hitgroups: &[#(#groups),*],
@@ -546,6 +552,7 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
     let Some(params) = params else {
         return structure;
     };
+    let params_type = quote!(type Params = #params;);
     let (pipeline_name, exception, throws) = (name(ident), exception_type(pipeline), throws(pipeline));
     let mut seen = Vec::new();
     let rays = pipeline.rays.iter().filter(|ray| {
@@ -569,14 +576,14 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #krate::pipeline::Pipeline for #ident {
-                type Params = #params;
+                #params_type
                 type Exception = #exception;
                 const RAY_TYPES: __core::primitive::u32 = 0;
                 const CROSSINGS: &'static [#krate::layout::Crossing] = &[];
                 #[cfg(not(target_arch = "nvptx64"))]
                 const DESCRIPTION: #krate::host::PipelineDescription = #krate::host::PipelineDescription {
                     name: #pipeline_name,
-                    params: #krate::host::ParamsDescription::of::<<Self as #krate::pipeline::Pipeline>::Params>(),
+                    params: <Self as #krate::pipeline::Pipeline>::PARAMS_DESCRIPTION,
                     raygen: &[],
                     rays: &[],
                     hitgroups: &[],

@@ -137,4 +137,80 @@ mod record_not_copy_in_a_pipeline {
     }
 }
 
+mod payload_without_derive {
+    use crate::common::Frame;
+    use optix_device_rs::prelude::*;
+
+    #[derive(Payload)]
+    pub struct Glow {
+        #[payload(write(closesthit, miss), read(caller))]
+        pub light: Vec3,
+    }
+
+    #[raygen]
+    pub fn look(rg: &RayGen<PathTracer>) {
+        let _ = rg.trace::<Glow>(rg.params().world(), Ray::new(Vec3::ZERO, Vec3::X), ());
+    }
+
+    #[miss]
+    pub fn dusk(_: &Miss<PathTracer>) -> GlowFromMiss {
+        GlowFromMiss { light: Vec3::ONE }
+    }
+
+    pipeline! {
+        pub struct PathTracer {
+            params: Frame,
+            raygen: [look],
+            rays: { Glow { miss: dusk } },
+        }
+    }
+}
+
+mod pipeline_private_params {
+    use crate::common::{Radiance, sky};
+    use optix_device_rs::prelude::*;
+
+    #[launch_params]
+    pub struct Frame {
+        count: u32,
+    }
+
+    #[raygen]
+    fn camera(rg: &RayGen<PathTracer>) {
+        let _ = rg.params().count();
+    }
+
+    pipeline! {
+        pub struct PathTracer {
+            params: Frame,
+            raygen: [camera],
+            rays: { Radiance { miss: sky } },
+        }
+    }
+}
+
+mod record_without_derive {
+    use crate::common::*;
+
+    #[derive(Clone, Copy, SbtRecord)]
+    #[repr(C)]
+    pub struct Matt {
+        pub albedo: Vec3,
+    }
+
+    #[closesthit]
+    pub fn matt(_: &ClosestHit<PathTracer, Triangles>, record: &Matt) -> RadianceFromClosestHit {
+        RadianceFromClosestHit { light: record.albedo }
+    }
+
+    pipeline! {
+        pub struct PathTracer {
+            params: Frame,
+            raygen: [camera],
+            rays: { Radiance { miss: sky } },
+            hitgroups: { Matt on Triangles => { Radiance { closesthit: matt } } },
+        }
+    }
+}
+
 fn main() {}
