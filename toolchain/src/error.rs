@@ -6,7 +6,7 @@ use std::process::ExitStatus;
 
 use crate::blame::Culprit;
 use crate::compiler::{MINIMUM, Rejected};
-use crate::messages::NeedsStd;
+use crate::messages::{NeedsStd, OfStd};
 use crate::ptx;
 
 /// Why a shader crate was not compiled. `Display` is one line: what is wrong and what to do.
@@ -45,6 +45,13 @@ pub enum Error {
     },
     /// A crate needs the standard library.
     NeedsStd(NeedsStd),
+    /// The shader crate uses a name of the standard library. The diagnostics went to standard error.
+    OfStd {
+        /// Its name.
+        package: String,
+        /// What it uses.
+        of_std: OfStd,
+    },
     /// A `cargo` or `rustc` that this crate ran has failed; its own diagnostics went to standard error.
     Step {
         /// What it was doing.
@@ -130,6 +137,7 @@ impl fmt::Display for Error {
                 differences.join("; ")
             ),
             Self::NeedsStd(needs_std) => write!(f, "{needs_std}"),
+            Self::OfStd { package, of_std } => write!(f, "`{package}` uses {of_std}"),
             Self::Missing(culprit) => write!(f, "{culprit}"),
             Self::Step { doing, status } | Self::Aborted { doing, status } => {
                 write!(f, "{doing} failed ({status}); its own messages say why")

@@ -73,7 +73,7 @@ pub use cache::cache;
 pub use compiler::{Candidate, DeviceCompiler, MINIMUM, Rejected, Release, Why};
 pub use device_build::Built;
 pub use error::Error;
-pub use messages::NeedsStd;
+pub use messages::{NeedsStd, OfStd};
 pub use metadata::{Package, Workspace};
 pub use options::{Codegen, DEFAULT_ARCH, Shaders};
 

@@ -23,6 +23,7 @@ pub(crate) fn run(command: &mut Command, doing: &str, graph: &Workspace, from: &
     let program = command.get_program().to_string_lossy().into_owned();
     let mut cargo = command.stdout(Stdio::piped()).spawn().doing(|| format!("cannot run {program}"))?;
     let (mut without_std, mut has_error) = (Vec::<String>::new(), false);
+    let mut of_std = None;
     for line in cargo.stdout.take().into_iter().flat_map(|out| BufReader::new(out).lines()).map_while(Result::ok) {
         // What is not JSON was printed by a build script or a proc macro.
         let Ok(json) = Json::parse(&line) else { continue };
@@ -31,17 +32,64 @@ pub(crate) fn run(command: &mut Command, doing: &str, graph: &Workspace, from: &
         if message.get("message").str() == Some("can't find crate for `std`") {
             without_std.push(package.to_string());
         }
+        if package == from.id && of_std.is_none() {
+            of_std = message.get("message").str().and_then(OfStd::missing);
+        }
         // Without the standard library, nothing else that is said of a crate is of use.
         if let Some(text) = message.get("rendered").str().filter(|_| !without_std.iter().any(|id| id == package)) {
             eprint!("{text}");
         }
     }
     let status = cargo.wait().doing(|| format!("cannot run {program}"))?;
-    match without_std.first() {
+    match (without_std.first(), of_std) {
         _ if status.success() => Ok(()),
-        Some(id) => Err(Error::NeedsStd(NeedsStd::new(graph, from, id))),
-        None if has_error => Err(Error::Step { doing: doing.to_string(), status }),
-        None => Err(Error::Aborted { doing: doing.to_string(), status }),
+        (Some(id), _) => Err(Error::NeedsStd(NeedsStd::new(graph, from, id))),
+        (None, Some(of_std)) => Err(Error::OfStd { package: from.name.clone(), of_std }),
+        (None, None) if has_error => Err(Error::Step { doing: doing.to_string(), status }),
+        (None, None) => Err(Error::Aborted { doing: doing.to_string(), status }),
+    }
+}
+
+/// A name of the standard library that a shader crate uses, and what programs have in its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OfStd {
+    /// As it is written: `println!`.
+    pub name: &'static str,
+    /// What to write.
+    pub instead: &'static str,
+}
+
+impl OfStd {
+    /// Of the message that such a name is not there.
+    fn missing(message: &str) -> Option<Self> {
+        const SHOW: &str = "write numbers to a `SliceMut` of the launch parameters, which the host reads and prints";
+        const TEXT: &str = "programs make no text: say a number, or throw a variant of a `UserException`";
+        const HEAP: &str = "take an array of a fixed length, or a `SliceMut` whose memory the host allocates";
+        const MACROS: [(&str, &str); 7] = [
+            ("println!", SHOW),
+            ("print!", SHOW),
+            ("eprintln!", SHOW),
+            ("eprint!", SHOW),
+            ("dbg!", SHOW),
+            ("format!", TEXT),
+            ("vec!", HEAP),
+        ];
+        const TYPES: [(&str, &str); 4] = [("String", TEXT), ("Vec", HEAP), ("Box", HEAP), ("HashMap", HEAP)];
+        let (what, name) = message.split_once('`').and_then(|(what, rest)| Some((what, rest.split_once('`')?.0)))?;
+        let is_macro = what.starts_with("cannot find macro");
+        let is_type =
+            ["cannot find type", "cannot find struct", "failed to resolve"].iter().any(|m| what.starts_with(m));
+        let of = |(of, _): &&(&str, &str)| match of.strip_suffix('!') {
+            Some(of) => is_macro && of == name,
+            None => is_type && *of == name,
+        };
+        MACROS.iter().chain(&TYPES).find(of).map(|&(name, instead)| Self { name, instead })
+    }
+}
+
+impl fmt::Display for OfStd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}`, which is of the standard library; the device has `core` alone: {}", self.name, self.instead)
     }
 }
 
@@ -90,5 +138,28 @@ impl fmt::Display for NeedsStd {
             "; take `{dependency}` with `default-features = false`, or another crate, or use it on the host only: \
              `[target.'cfg(not(target_arch = \"nvptx64\"))'.dependencies]`"
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::OfStd;
+
+    #[test]
+    fn what_is_of_the_standard_library_is_known_by_its_message() {
+        let name = |message| OfStd::missing(message).map(|of_std| of_std.name);
+        for (message, of) in [
+            ("cannot find macro `println` in this scope", "println!"),
+            ("cannot find macro `vec` in this scope", "vec!"),
+            ("cannot find type `String` in this scope", "String"),
+            ("failed to resolve: use of undeclared type `Vec`", "Vec"),
+        ] {
+            assert_eq!(name(message), Some(of), "{message}");
+        }
+        for message in
+            ["cannot find type `println` in this scope", "cannot find macro `Vec` in this scope", "`Vec`", ""]
+        {
+            assert_eq!(name(message), None, "{message}");
+        }
     }
 }

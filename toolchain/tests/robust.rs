@@ -125,6 +125,21 @@ fn a_crate_that_needs_std_is_named() {
 }
 
 #[test]
+fn what_is_of_the_standard_library_has_something_in_its_place() {
+    for (folder, used, name, instead) in [
+        ("println", "{ println!(\"{x}\"); x }", "println!", "SliceMut"),
+        ("vec", "{ let all = vec![x]; all[0] }", "vec!", "an array of a fixed length"),
+        ("string", "{ String::new().len() as u32 + x }", "String", "UserException"),
+    ] {
+        let Some(shaders) = shaders(folder, &format!("fn compute(x: u32) -> u32 {used}"), &[]) else { return };
+        let error = compile(&shaders).expect_err("there is no std");
+        let Error::OfStd { package, of_std } = &error else { panic!("{error}") };
+        assert_eq!((package.as_str(), of_std.name), ("my-shaders", name));
+        assert!(error.to_string().contains(instead), "{error}");
+    }
+}
+
+#[test]
 fn what_optix_does_not_run_is_named() {
     let pointers = "fn compute(x: u32) -> u32 { [|x| x + 1, |x| x * x, |x: u32| x / 3][(x % 3) as usize](x) }";
     let recursion = "
