@@ -161,6 +161,15 @@ impl Batch {
         Self { islands, starts }
     }
 
+    /// The pair `i` of a field of [`pairs`], alone.
+    fn pair(&self, i: usize) -> Self {
+        let [Island { levels, content: Content::Triangles(triangles) }] = &self.islands[..] else { unreachable!() };
+        let content = Content::Triangles(triangles[3 * i..3 * i + 3].to_vec());
+        let starts = (0..).zip(&self.starts[0][2 * i..2 * i + 2]);
+        let starts = starts.map(|(primitive, s)| Start { primitive, other: 2, ..*s }).collect();
+        Self { islands: vec![Island { levels: levels.clone(), content }], starts: vec![starts] }
+    }
+
     /// Runs `of` on each island's starts.
     fn run(&self, device: &Device, of: impl Fn(&Field, usize, &[Start]) -> Vec<Departure>) -> Vec<Departure> {
         let field = Field::new(device, &self.islands).unwrap();
@@ -396,7 +405,18 @@ fn segments_meet_what_is_between_and_no_end() {
         for seed in 0..fields {
             let levels = seed % 3;
             let batch = pairs(range(&device), levels, count / fields, &mut Dice::new(700 + seed as u64));
-            sums[levels].add(&batch.run(&device, |field, island, s| field.between(island, s).unwrap()));
+            let departures = batch.run(&device, |field, island, s| field.between(island, s).unwrap());
+            sums[levels].add(&departures);
+            let failed = (0..departures.len()).filter(|&i| departures[i].own + departures[i].lost > 0);
+            for (count, i) in failed.enumerate() {
+                // Whether the ray fails, or the structure.
+                if count == 0 {
+                    let alone = batch.pair(i).run(&device, |field, island, s| field.between(island, s).unwrap());
+                    println!("  field {seed}, {levels} levels, pair {i}: {:?}, alone {:?}", departures[i], alone[0]);
+                } else if count % 100 == 0 {
+                    println!("  {count} more in field {seed}, the last pair {i}");
+                }
+            }
         }
         println!("segments, by levels of instances, on {}: {sums:?}", device.description());
         for sum in sums {
