@@ -3,13 +3,14 @@
 use crate::data::{Fields, device_data, docs_or, struct_bounds, twin};
 use crate::place::place;
 use crate::shape::{Field, Repr, Struct};
+use crate::source;
 use crate::support::{
     Errors, block, cfg_of, device_crate, device_crate_outside, may_begin, moved, name, no_arguments, place_of,
 };
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use quote::{format_ident, quote, quote_spanned};
 use syn::spanned::Spanned;
-use syn::{DeriveInput, Ident, Item, ItemStruct, Member};
+use syn::{Attribute, DeriveInput, Error, Ident, Item, ItemStruct, Member};
 
 pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let mut errors = Errors::default();
@@ -32,6 +33,12 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
         }
     };
     let model = Struct::parse(&DeriveInput::from(item.clone()), "a launch-parameter struct", false, &mut errors);
+    let above = source::attributes_above(Span::call_site());
+    if derives(&above, "Clone") || derives(&above, "Copy") {
+        let message = "write `#[launch_params]` above `#[derive(..)]`: it derives `Clone` and `Copy` where they are not, and sees only \
+                       what stands below it";
+        errors.push(Error::new(Span::call_site(), message));
+    }
     strip(&mut item);
     let Some(model) = model else {
         let errors = errors.into_tokens();
@@ -45,7 +52,7 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let view = view(&model);
     let params = launch_params(&model, &host);
     let errors = errors.into_tokens();
-    let missing = missing_attributes(&item);
+    let missing = missing_attributes(&item.attrs, &above);
     quote! {
         #errors
         #missing
@@ -65,22 +72,25 @@ fn strip(item: &mut ItemStruct) {
     }
 }
 
-/// `#[repr(C)]` and the derives that the struct does not have itself.
-fn missing_attributes(item: &ItemStruct) -> TokenStream {
-    let derived = |what: &str| {
-        item.attrs.iter().filter(|a| a.path().is_ident("derive")).any(|a| {
-            let mut found = false;
-            let _ = a.parse_nested_meta(|meta| {
-                found |= meta.path.segments.last().is_some_and(|s| s.ident == what);
-                Ok(())
-            });
-            found
-        })
-    };
-    let repr = (!Repr::of(&item.attrs).fixed).then(|| quote!(#[repr(C)]));
+/// `#[repr(C)]` and the derives that the struct does not have itself: of its attributes, and those above the macro's.
+fn missing_attributes(attributes: &[Attribute], above: &[Attribute]) -> TokenStream {
+    let derived = |what: &str| derives(attributes, what) || derives(above, what);
+    let repr = (!Repr::of(attributes).fixed).then(|| quote!(#[repr(C)]));
     let clone = (!derived("Clone")).then(|| quote!(#[derive(::core::clone::Clone)]));
     let copy = (!derived("Copy")).then(|| quote!(#[derive(::core::marker::Copy)]));
     quote!(#repr #clone #copy)
+}
+
+/// Whether a trait is derived.
+fn derives(attributes: &[Attribute], what: &str) -> bool {
+    attributes.iter().filter(|a| a.path().is_ident("derive")).any(|a| {
+        let mut found = false;
+        let _ = a.parse_nested_meta(|meta| {
+            found |= meta.path.segments.last().is_some_and(|s| s.ident == what);
+            Ok(())
+        });
+        found
+    })
 }
 
 fn check(model: &Struct, errors: &mut Errors) {

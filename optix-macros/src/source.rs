@@ -3,8 +3,9 @@
 
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use quote::ToTokens;
-use syn::Data;
+use syn::parse::Parser;
 use syn::spanned::Spanned;
+use syn::{Attribute, Data};
 
 /// What says which machine, or which of its builds, is compiled for.
 const OF_TARGET: [&str; 6] = ["windows", "unix", "debug_assertions", "overflow_checks", "panic", "test"];
@@ -64,15 +65,45 @@ fn names(tokens: TokenStream, is_it: fn(&str) -> bool) -> bool {
     })
 }
 
+/// The attributes that stand directly above an attribute at `span`: derives among them have run and are not seen any more.
+pub fn attributes_above(span: Span) -> Vec<Attribute> {
+    text_before(span).map(|text| attributes_at_end(&text)).unwrap_or_default()
+}
+
+/// The attributes that a text ends with, without comments. None if it ends with something else.
+fn attributes_at_end(text: &str) -> Vec<Attribute> {
+    let (mut attributes, mut depth, mut rest) = (String::new(), 0usize, text);
+    while let Some(first) = rest.chars().next() {
+        let (word, after) = rest.split_at(token(rest));
+        rest = after;
+        match first {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if depth == 0 && matches!(first, ';' | '{' | '}') {
+            attributes.clear();
+        } else if !word.starts_with("//") && !word.starts_with("/*") {
+            attributes.push_str(word);
+        }
+    }
+    Attribute::parse_outer.parse_str(&attributes).unwrap_or_default()
+}
+
 /// Whether the braces that hold what is at `span` are those of an `impl` or a `trait`. Where the source can't be read, they are
 /// not.
 pub fn is_in_impl(span: Span) -> bool {
+    text_before(span).is_some_and(|text| ends_in_impl(&text))
+}
+
+/// The source before a place, where it can be read.
+fn text_before(span: Span) -> Option<String> {
     if !proc_macro::is_available() {
-        return false;
+        return None;
     }
     let span = span.unwrap();
-    let text = span.local_file().and_then(|file| std::fs::read_to_string(file).ok());
-    text.is_some_and(|text| ends_in_impl(before(&text, span.line(), span.column())))
+    let text = std::fs::read_to_string(span.local_file()?).ok()?;
+    Some(before(&text, span.line(), span.column()).to_owned())
 }
 
 /// The text before a place; lines and characters count from 1.
@@ -164,7 +195,18 @@ fn token(text: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{before, ends_in_impl, of_field, token};
+    use super::{attributes_at_end, before, ends_in_impl, of_field, token};
+
+    #[test]
+    fn attributes_above_are_seen() {
+        let count = |text: &str| attributes_at_end(text).len();
+        assert_eq!(count("use a::b;\n/// #[derive(Copy)]\n#[derive(Clone, Copy)] // ;\n#[doc = \"}\"]\n"), 2);
+        assert_eq!(count("#[derive(Clone)] struct A; #[repr(C)] "), 1);
+        for text in ["", "#[derive(Clone)] struct A {} ", "#[derive(Clone)] fn a", "/* #[derive(Clone)] */", "\"", ")]"]
+        {
+            assert_eq!(count(text), 0, "{text}");
+        }
+    }
 
     #[test]
     fn what_is_in_an_impl_is_seen() {
