@@ -60,8 +60,8 @@ pub struct Field {
     pub size: usize,
     /// Whether the host may specialise it away (`#[bound]`).
     pub bound: bool,
-    /// Whether it is a view of device memory.
-    pub view: bool,
+    /// Whether it is one view of elements, by its name: a `Slice`, `SliceMut` or `SliceMut2d`.
+    pub slice: bool,
 }
 
 /// A field that the host may bind to a constant when it builds the pipeline; `Frame::MAX_BOUNCES` for a field

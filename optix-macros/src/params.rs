@@ -2,7 +2,7 @@
 
 use crate::data::{Fields, device_data, docs_or, struct_bounds, twin};
 use crate::place::place;
-use crate::shape::{Field, Repr, Struct};
+use crate::shape::{Field, Repr, Struct, is_slice};
 use crate::source;
 use crate::support::{
     Errors, block, cfg_of, device_crate, device_crate_outside, may_begin, moved, name, no_arguments, place_of,
@@ -129,14 +129,14 @@ fn ident_of(field: &Field) -> Option<&Ident> {
 
 fn field_value(model: &Struct, field: &Field) -> TokenStream {
     let (krate, ident, member, ty) = (&device_crate(), &model.ident, &field.member, &field.ty);
-    let (name, bound, view) = (field.name(), field.bound.is_some(), field.view);
+    let (name, bound, slice) = (field.name(), field.bound.is_some(), is_slice(&field.ty));
     quote! {
         #krate::params::Field {
             name: #name,
             offset: __core::mem::offset_of!(#ident, #member),
             size: __core::mem::size_of::<#ty>(),
             bound: #bound,
-            view: #view,
+            slice: #slice,
         }
     }
 }

@@ -58,6 +58,13 @@ fn is_view(ty: &Type) -> bool {
     }
 }
 
+/// Whether the type is one view of elements by its name.
+pub fn is_slice(ty: &Type) -> bool {
+    const SLICES: [&str; 3] = ["Slice", "SliceMut", "SliceMut2d"];
+    let Type::Path(path) = ungroup(ty) else { return false };
+    path.path.segments.last().is_some_and(|s| SLICES.iter().any(|slice| s.ident == slice))
+}
+
 /// Whether the type is plain data by its name.
 pub fn is_plain(ty: &Type) -> bool {
     const PLAIN: [&str; 29] = [

@@ -102,7 +102,7 @@ impl<T: Copy> ByHandle<T> {
 #[derive(Clone, Debug, Default)]
 pub struct Reach {
     memory: ByHandle<NonNull<u8>>,
-    /// Launch parameters that hold a view, by its number; for messages.
+    /// The launch parameters that are views, by their numbers; for messages.
     parameters: Vec<(u64, &'static str)>,
 }
 
@@ -126,15 +126,14 @@ impl Reach {
         self.memory.insert(handle, memory);
     }
 
-    /// Notes which launch parameters hold views of this memory, for messages: of `params`, the bytes of the launch's.
+    /// Notes which launch parameters are views of this memory, for messages: of `params`, the bytes of the launch's.
     pub fn name(&mut self, fields: &[Field], params: &[u8]) {
-        for field in fields.iter().filter(|field| field.view) {
-            // A view begins with its number, which is aligned to eight bytes.
-            let bytes = params.get(field.offset..field.offset + field.size).unwrap_or_default();
-            let numbers = bytes.as_chunks().0.iter().map(|bytes| u64::from_le_bytes(*bytes));
-            let held = numbers.filter(|&number| self.memory.get(number).is_some());
-            self.parameters.extend(held.map(|number| (number, field.name)));
-        }
+        // A view begins with its number.
+        let slices = fields.iter().filter(|field| field.slice).filter_map(|field| {
+            let number = params.get(field.offset..)?.first_chunk()?;
+            Some((u64::from_le_bytes(*number), field.name))
+        });
+        self.parameters.extend(slices);
     }
 
     /// Runs programs of the launch that keeps this memory.
@@ -167,18 +166,14 @@ pub(crate) fn memory(handle: u64) -> NonNull<u8> {
     }
 }
 
-/// Where the running launch holds a view, in words that end a message: in launch parameters, else in a record.
+/// The launch parameters that are a view of the running program, in words that end a message. A view in a record or in a struct
+/// of views has none.
 pub(crate) fn name_of(handle: u64) -> String {
     // SAFETY: `enter` borrows the value for as long as it stands there.
-    let Some(reach) = RUNNING.get().map(|reach| unsafe { reach.as_ref() }) else { return String::new() };
-    let parameters = reach.parameters.iter().filter(|(number, _)| *number == handle);
-    let mut names: Vec<&str> = parameters.map(|(_, name)| *name).collect();
-    names.dedup();
-    match (names.as_slice(), reach.memory.get(handle)) {
-        ([], None) => String::new(),
-        ([], Some(_)) => " (a view in a record)".into(),
-        (names, _) => format!(" (launch parameter `{}`)", names.join("` or `")),
-    }
+    let running = RUNNING.get().map(|reach| unsafe { reach.as_ref() });
+    let parameters = running.into_iter().flat_map(|reach| &reach.parameters);
+    let names: Vec<&str> = parameters.filter(|(number, _)| *number == handle).map(|(_, name)| *name).collect();
+    if names.is_empty() { String::new() } else { format!(" (launch parameter `{}`)", names.join("` or `")) }
 }
 
 /// Takes the memory from the programs of this thread, whose launch index has ended.
@@ -226,20 +221,19 @@ mod tests {
     }
 
     #[test]
-    fn a_message_names_where_a_view_is_held() {
-        let (handle, other, mut memory) = (Handle::issue(), Handle::issue(), 0u64);
+    fn a_message_names_the_parameters_that_are_the_view() {
+        let (handle, other) = (Handle::issue(), Handle::issue());
         let mut reach = Reach::default();
-        // SAFETY: nobody reads or writes there.
-        unsafe { reach.insert(&handle, NonNull::from(&mut memory).cast()) };
-        within(&reach, || assert_eq!(name_of(handle.number()), " (a view in a record)"));
-        // A number that is the view's by chance, and two fields with views: of both the same one, and of the first another, too.
-        let field = |name, offset, view| Field { name, offset, size: 16, bound: false, view };
-        let fields = [field("count", 0, false), field("first", 16, true), field("second", 32, true)];
-        let words = [handle.number(), 0, other.number(), handle.number(), handle.number(), 7];
+        let field = |name, offset, slice| Field { name, offset, size: 16, bound: false, slice };
+        let fields =
+            [field("count", 0, false), field("first", 16, true), field("second", 32, true), field("third", 48, true)];
+        // A number that is the view's by chance, the view twice, and another view, as long as the view's number.
+        let words = [handle.number(), 0, handle.number(), 7, handle.number(), 7, other.number(), handle.number()];
         reach.name(&fields, words.map(u64::to_le_bytes).as_flattened());
         within(&reach, || {
             assert_eq!(name_of(handle.number()), " (launch parameter `first` or `second`)");
-            assert_eq!(name_of(other.number()), "");
+            assert_eq!(name_of(other.number()), " (launch parameter `third`)");
+            assert_eq!(name_of(0), "");
         });
         assert_eq!(name_of(handle.number()), "");
     }

@@ -44,7 +44,7 @@ mod tests {
     #[test]
     fn replaced_loads_are_counted_by_field() {
         let value = |name, offset| BoundValue {
-            field: Field { name, offset, size: 4, bound: true, view: false },
+            field: Field { name, offset, size: 4, bound: true, slice: false },
             bytes: vec![0; 4],
         };
         let bound = [value("depth", 8), value("seed", 12), value("dep", 16)];

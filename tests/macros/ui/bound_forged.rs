@@ -9,6 +9,6 @@ pub struct Frame {
     pub bounces: u32,
 }
 
-pub const ELSEWHERE: Bound<Frame, u32> = Bound::new(Field { name: "bounces", offset: 4000, size: 4, bound: true, view: false });
+pub const ELSEWHERE: Bound<Frame, u32> = Bound::new(Field { name: "bounces", offset: 4000, size: 4, bound: true, slice: false });
 
 fn main() {}
