@@ -14,10 +14,21 @@ pub struct Entry {
     pub name: &'static str,
     /// The Rust function's path as written in `pipeline!`, for messages.
     pub function: &'static str,
+    /// The program. [`run`](Self::run) runs it.
+    #[doc(hidden)]
+    pub body: unsafe fn(&Frame<'_>) -> Decision,
+}
+
+impl Entry {
     /// Runs the program on a frame. Programs other than any-hit return [`Decision::Accept`].
     ///
-    /// The caller promises what [`Cx::new`](crate::machine::Cx::new) asks for.
-    pub run: unsafe fn(&Frame<'_>) -> Decision,
+    /// # Safety
+    /// What [`Cx::new`](crate::machine::Cx::new) asks for.
+    #[inline(always)]
+    pub unsafe fn run(&self, frame: &Frame<'_>) -> Decision {
+        // SAFETY: the caller's.
+        frame.turn.take(|| unsafe { (self.body)(frame) })
+    }
 }
 
 impl core::fmt::Debug for Entry {

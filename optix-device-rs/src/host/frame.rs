@@ -98,6 +98,55 @@ pub struct Frame<'a> {
     pub hit: HitState,
     /// The exception; exception programs only.
     pub exception: &'a ExceptionState,
+    /// Whether its program runs.
+    pub turn: Turn,
+}
+
+/// Whether a program runs, or waits for one that it called: a trace call's, a callable, or those of a launch that it made.
+///
+/// Contexts are borrowed, but safe code can lend one further than to the functions that its program calls (a scoped thread-local
+/// does). Only the program that runs may use its own: one that waits has, for instance, another pipeline's exceptions.
+#[derive(Debug, Default)]
+pub struct Turn {
+    waits: Cell<bool>,
+}
+
+std::thread_local! {
+    /// Whose turn it is on this thread.
+    static RUNNING: Cell<Option<NonNull<Turn>>> = const { Cell::new(None) };
+}
+
+impl Turn {
+    /// Whether another program runs.
+    #[inline(always)]
+    pub(crate) fn waits(&self) -> bool {
+        self.waits.get()
+    }
+
+    /// Runs the program whose turn this is; that of the program around it is over meanwhile.
+    #[inline(always)]
+    pub(super) fn take<R>(&self, program: impl FnOnce() -> R) -> R {
+        struct GiveBack(Option<NonNull<Turn>>);
+        impl GiveBack {
+            #[inline(always)]
+            fn waits(&self, waits: bool) {
+                if let Some(around) = self.0 {
+                    // SAFETY: its owner is borrowed by `take` below on this thread's stack, which has not returned.
+                    unsafe { around.as_ref() }.waits.set(waits);
+                }
+            }
+        }
+        impl Drop for GiveBack {
+            #[inline(always)]
+            fn drop(&mut self) {
+                RUNNING.set(self.0);
+                self.waits(false);
+            }
+        }
+        let around = GiveBack(RUNNING.replace(Some(NonNull::from(self))));
+        around.waits(true);
+        program()
+    }
 }
 
 /// Is told of a program's payload accesses before they happen. Fields are indices into

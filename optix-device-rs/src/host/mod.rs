@@ -17,7 +17,7 @@ pub use description::{
     CallableDescription, Entry, ExceptionsDescription, HitGroupDescription, HitPrograms, ParamsDescription,
     PayloadDescription, PipelineDescription, ProgramDescription, RayDescription, RecordLayout,
 };
-pub use frame::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState, PayloadWatch};
+pub use frame::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState, PayloadWatch, Turn};
 pub use memory::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, MemoryError, TriangleTable, World};
 pub use reach::{ByHandle, Handle, Reach};
 pub(crate) use reach::{memory, name_of};

@@ -142,8 +142,19 @@ impl Cx {
 
     #[inline(always)]
     fn frame(&self) -> &Frame<'static> {
+        #[cold]
+        #[inline(never)]
+        fn waits() -> ! {
+            end::fail(
+                "a context is used while another program runs than the one that it was given to: use the running program's own".into(),
+            )
+        }
         // SAFETY: the promise of `new`; the reference does not leave the methods below.
-        unsafe { self.0.as_ref() }
+        let frame = unsafe { self.0.as_ref() };
+        if frame.turn.waits() {
+            waits();
+        }
+        frame
     }
 
     #[inline(always)]
@@ -165,8 +176,9 @@ impl Cx {
     #[inline(always)]
     pub fn trace(&self, call: &TraceCall, mut payload: WordBuffer) -> WordBuffer {
         // What comes back where no program ran is a value of every type.
+        let frame = self.frame();
         if end::goes_on() {
-            self.frame().executor.trace(call, &mut payload);
+            frame.executor.trace(call, &mut payload);
             payload
         } else {
             WordBuffer::ZERO
@@ -384,6 +396,8 @@ impl Cx {
     }
     #[track_caller]
     pub fn throw<const CODE: u32>(&self, _count: usize, details: &[u32; MAX_DETAILS]) -> ! {
+        // It is the running program's, whose pipeline is told.
+        let _ = self.frame();
         let at = Location::caller();
         let line = CString::new(std::format!("{}:{}", at.file(), at.line())).ok();
         // SAFETY: `Throw`, which the context makes, is told code and details by an exception of the pipeline's type.

@@ -471,7 +471,7 @@ mod tests {
         unsafe fn nothing(_: &Frame<'_>) -> optix_device_rs::ray::Decision {
             unreachable!("not called")
         }
-        const ENTRY: Entry = Entry { name: "", function: "", run: nothing };
+        const ENTRY: Entry = Entry { name: "", function: "", body: nothing };
         const TEST: PipelineDescription = PipelineDescription {
             name: "Test",
             params: ParamsDescription { name: "()", symbol: "", size: 0, align: 1, fields: &[] },

@@ -137,7 +137,7 @@ impl Entries<'_> {
                 #there::check::is_program(__has_attribute, { #is_function }, #function, #attribute);
             };
         });
-        quote!(#krate::host::Entry { name: #entry_name, function: #function, run: #host })
+        quote!(#krate::host::Entry { name: #entry_name, function: #function, body: #host })
     }
 }
 

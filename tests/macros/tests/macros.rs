@@ -459,7 +459,7 @@ fn a_pipeline_describes_itself() {
 
 /// Runs an entry on a frame; gives its decision and the payload, or with what it traced a ray.
 fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer) -> (Decision, WordBuffer) {
-    use optix_device_rs::host::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState};
+    use optix_device_rs::host::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState, Turn};
     use optix_device_rs::machine::TraceCall;
 
     struct Alone<'a>(&'a std::cell::Cell<WordBuffer>);
@@ -520,9 +520,10 @@ fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer)
         object_ray: (Vec3::ZERO, Vec3::X),
         hit: HitState::NONE,
         exception: &ExceptionState::NONE,
+        turn: Turn::default(),
     };
     // SAFETY: the frame's parameters are the pipeline's, and its record is a `Paint` wherever the program reads one.
-    let decision = unsafe { (entry.run)(&frame) };
+    let decision = unsafe { entry.run(&frame) };
     (decision, frame.payload.get())
 }
 

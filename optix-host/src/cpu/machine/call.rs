@@ -13,7 +13,8 @@ use glam::{UVec3, Vec3};
 use optix_device_rs::exception::TRACE_DEPTH_EXCEEDED;
 use optix_device_rs::host::end::{goes_on, throw};
 use optix_device_rs::host::{
-    CallableCall, Entry, ExceptionState, Executor, Frame, HitPrograms, HitState, InstanceState, PayloadWatch, TraceCall,
+    CallableCall, Entry, ExceptionState, Executor, Frame, HitPrograms, HitState, InstanceState, PayloadWatch,
+    TraceCall, Turn,
 };
 use optix_device_rs::prelude::{Decision, Ray};
 use optix_device_rs::words::WordBuffer;
@@ -103,6 +104,8 @@ impl<'c> Call<'c> {
         // It has no payload, and the frame needs one.
         let payload = Cell::new(WordBuffer::ZERO);
         let call = Call::root(job, index, running, &payload);
+        // A program may have made this launch.
+        call.check_stack();
         let entry = &job.description.raygen[job.raygen].entry;
         let _ = call.run(entry, &job.sbt.raygen, job.raygen, Seen::NOTHING, &call);
     }
@@ -156,11 +159,12 @@ impl<'c> Call<'c> {
             object_ray: seen.object_ray,
             hit: seen.hit,
             exception,
+            turn: Turn::default(),
         };
         let caller = self.running.replace(entry.name);
         // SAFETY: the parameters were lowered from `P::Params` of the pipeline that the entry belongs to, and the section's
         // record from the record type that `pipeline!` tied to the program; both are aligned to 16 and outlive the call.
-        let decision = unsafe { (entry.run)(&frame) };
+        let decision = unsafe { entry.run(&frame) };
         // Of a program that caught what ended the launch index.
         goes_on();
         self.running.set(caller);

@@ -139,7 +139,7 @@ fn call(cx: Cx) {
 }
 
 const fn entry(name: &'static str, run: unsafe fn(&Frame<'_>) -> Decision) -> Entry {
-    Entry { name, function: name, run }
+    Entry { name, function: name, body: run }
 }
 const RECORD: RecordLayout = RecordLayout { name: "()", size: 0, align: 1 };
 const fn word(name: &'static str, at: usize) -> Field {
