@@ -9,8 +9,12 @@ use glam::Vec3;
 /// Unit roundoff of `f32`.
 const U: f32 = 1.0 / 16_777_216.0;
 
-/// `n * u / (1 - n * u)`: the relative error of `n` roundings (Higham 2002, section 3.1), rounded up.
+/// `n * u / (1 - n * u)`: the relative error of `n` roundings (Higham 2002, section 3.1), rounded up. From `2^24` roundings on
+/// nothing is known, and it is infinite.
 pub const fn gamma(n: u32) -> f32 {
+    if n >= 1 << 24 {
+        return f32::INFINITY;
+    }
     let nu = n as f64 / 16_777_216.0;
     (nu / (1.0 - nu)) as f32 * (1.0 + 2.0 * U)
 }

@@ -60,6 +60,18 @@ pub trait Words: Copy + 'static {
     unsafe fn load(words: &[u32]) -> Self;
 }
 
+/// Where each of several values in a row begins, and where the last one ends: `N` is one more than there are values.
+#[doc(hidden)]
+pub const fn begins<const N: usize>(counts: &[usize]) -> [usize; N] {
+    let mut all = [0; N];
+    let mut i = 0;
+    while i < counts.len() {
+        all[i + 1] = all[i] + counts[i];
+        i += 1;
+    }
+    all
+}
+
 /// `words[at..end]`, inlined before any other optimisation: what is a register must not look like memory for long.
 #[doc(hidden)]
 #[inline(always)]

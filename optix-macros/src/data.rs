@@ -1,7 +1,7 @@
 //! `DeviceData`, with the host twin of structs that hold views.
 
 use crate::shape::{Field, Form, Struct, construct};
-use crate::support::{Errors, block, device_crate, device_crate_outside, docs, moved, place_of};
+use crate::support::{Errors, block, device_crate, device_crate_outside, docs, layout, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::{DeriveInput, Ident};
@@ -67,12 +67,18 @@ pub fn device_data(model: &Struct, fields: Fields, what: &str) -> TokenStream {
             #write(&__field, &mut __bytes[__AT..__AT + __core::mem::size_of::<#ty>()]);
         }}
     });
-    let layout = model.fields.iter().map(|field| {
-        let (member, name, span) = (&field.member, field.name(), place_of(&field.ty));
-        let (asked, _, layout) = fields.asked(field);
-        let layout = quote_spanned!(span=> #asked::#layout);
-        quote!(.field(#name, __core::mem::offset_of!(#ident, #member), #layout))
-    });
+    let layouts: Vec<_> = model
+        .fields
+        .iter()
+        .map(|field| {
+            let (member, name, span) = (&field.member, field.name(), place_of(&field.ty));
+            let (asked, _, layout) = fields.asked(field);
+            let layout = quote_spanned!(span=> #asked::#layout);
+            quote!(.field(#name, __core::mem::offset_of!(#ident, #member), #layout))
+        })
+        .collect();
+    let of = quote!(#krate::layout::Layout::of_size(__core::mem::size_of::<Self>(), __core::mem::align_of::<Self>()));
+    let layout = layout(of, &layouts);
     let views = model.fields.iter().filter(|field| field.view && fields == Fields::Data).map(|field| {
         let (ty, span) = (&field.ty, place_of(&field.ty));
         let krate = moved(krate, span);
@@ -87,10 +93,7 @@ pub fn device_data(model: &Struct, fields: Fields, what: &str) -> TokenStream {
             fn write_to(&self, __bytes: &mut [__core::primitive::u8]) {
                 #(#writes)*
             }
-            const LAYOUT: #krate::layout::Layout = #krate::layout::Layout::of_size(
-                __core::mem::size_of::<Self>(),
-                __core::mem::align_of::<Self>(),
-            ) #(#layout)*;
+            const LAYOUT: #krate::layout::Layout = #layout;
         }
         #alignment
         #touch

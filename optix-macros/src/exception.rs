@@ -1,7 +1,7 @@
 //! `#[derive(UserException)]`.
 
 use crate::shape::Repr;
-use crate::support::{Errors, block, device_crate, moved, name, place_of, ungroup};
+use crate::support::{Errors, block, device_crate, layout, moved, name, place_of, ungroup};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::{Data, DataEnum, DeriveInput, Ident, Index, Member, Type, Variant};
@@ -46,7 +46,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
 fn emit(ident: &Ident, repr: &Repr, variants: &[&Variant]) -> TokenStream {
     let (krate, enum_name) = (&device_crate(), name(ident));
     let mut consts = TokenStream::new();
-    let (mut names, mut throw, mut decode, mut most) = (Vec::new(), Vec::new(), Vec::new(), quote!(0));
+    let (mut names, mut throw, mut decode, mut most) = (Vec::new(), Vec::new(), Vec::new(), TokenStream::new());
     let mut layouts = Vec::new();
     let integer = repr.integer.as_ref().map_or(quote!(isize), ToTokens::to_token_stream);
     for (i, variant) in variants.iter().enumerate() {
@@ -102,7 +102,7 @@ fn emit(ident: &Ident, repr: &Repr, variants: &[&Variant]) -> TokenStream {
             #krate::exception::Thrower::throw::<{ #code as __core::primitive::u32 }>(__thrower, __details)
         }));
         decode.push(quote!(#code => __core::option::Option::Some(Self::#variant_ident { #(#loads),* })));
-        most = quote!(#krate::check::larger(#most, #words));
+        most.extend(quote!(let __most = #krate::check::larger(__most, #words);));
     }
     let span = place_of(ident);
     let there = moved(krate, span);
@@ -113,6 +113,7 @@ fn emit(ident: &Ident, repr: &Repr, variants: &[&Variant]) -> TokenStream {
         let codes = (0..variants.len()).map(|i| format_ident!("__CODE_{i}"));
         quote_spanned!(span=> const _: () = #there::check::codes(&[#(#codes),*]);)
     });
+    let layout = layout(quote!(#krate::layout::Layout::of("exception")), &layouts);
     block(quote! {
             #consts
             #codes
@@ -120,8 +121,12 @@ fn emit(ident: &Ident, repr: &Repr, variants: &[&Variant]) -> TokenStream {
             #[automatically_derived]
             unsafe impl #krate::exception::UserException for #ident {
                 const NAME: &'static __core::primitive::str = #enum_name;
-                const DETAILS: __core::primitive::usize = #most;
-                const LAYOUT: #krate::layout::Layout = #krate::layout::Layout::of("exception") #(#layouts)*;
+                const DETAILS: __core::primitive::usize = {
+                    let __most = 0;
+                    #most
+                    __most
+                };
+                const LAYOUT: #krate::layout::Layout = #layout;
                 const VARIANTS: &'static [(__core::primitive::u32, &'static __core::primitive::str)] = &[#(#names),*];
                 #[inline(always)]
                 #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]

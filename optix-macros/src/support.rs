@@ -2,7 +2,7 @@
 
 use crate::{compiler, depth, source};
 use proc_macro2::{Group, Span, TokenStream, TokenTree};
-use quote::{ToTokens, quote};
+use quote::{ToTokens, format_ident, quote};
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
 use syn::{Attribute, DeriveInput, Error, Ident, Path, Type};
@@ -168,4 +168,28 @@ pub fn ungroup(mut ty: &Type) -> &Type {
             other => return other,
         };
     }
+}
+
+/// Where each of several values in a row begins, in words: `const __AT_0: usize = 0;` and so on, one more than there are values. Made of one
+/// array, since constants that are made of each other nest too deep for the compiler where there are hundreds.
+pub fn begins(krate: &Ident, counts: &[TokenStream]) -> TokenStream {
+    let all = counts.len() + 1;
+    let consts = (0..all).map(|i| {
+        let at = format_ident!("__AT_{i}");
+        quote!(const #at: __core::primitive::usize = __BEGINS[#i];)
+    });
+    quote! {
+        const __BEGINS: [__core::primitive::usize; #all] = #krate::words::begins(&[#(#counts),*]);
+        #(#consts)*
+    }
+}
+
+/// A layout with these parts, which are calls such as `.field(..)`: a statement each, since calls of calls nest too deep for
+/// the compiler where there are thousands.
+pub fn layout(of: TokenStream, parts: &[TokenStream]) -> TokenStream {
+    quote!({
+        let __layout = #of;
+        #(let __layout = __layout #parts;)*
+        __layout
+    })
 }

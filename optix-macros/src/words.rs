@@ -2,7 +2,7 @@
 
 use crate::data::{must_copy, touch};
 use crate::shape::{Struct, construct};
-use crate::support::{Errors, block, device_crate, moved, place_of};
+use crate::support::{Errors, begins, block, device_crate, layout, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
 use syn::DeriveInput;
@@ -19,20 +19,13 @@ struct Places {
 
 fn places(model: &Struct) -> Places {
     let krate = &device_crate();
-    let mut consts = TokenStream::new();
-    let (mut stores, mut loads, mut layouts) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut stores, mut loads, mut layouts, mut counts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (i, field) in model.fields.iter().enumerate() {
         let (member, ty) = (&field.member, &field.ty);
         let (at, next) = (format_ident!("__AT_{i}"), format_ident!("__AT_{}", i + 1));
-        if i == 0 {
-            consts.extend(quote!(
-                const __AT_0: __core::primitive::usize = 0;
-            ));
-        }
         let span = place_of(ty);
         let krate = moved(krate, span);
-        let count = quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT);
-        consts.extend(quote!(const #next: __core::primitive::usize = #at + #count;));
+        counts.push(quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT));
         let store = quote_spanned!(span=> <#ty as #krate::words::Words>::store);
         stores.push(quote!(#store(self.#member, #krate::words::part_mut(__words, #at, #next));));
         let load = quote_spanned!(span=> <#ty as #krate::words::Words>::load);
@@ -41,10 +34,10 @@ fn places(model: &Struct) -> Places {
         loads.push(quote!(unsafe { #load(#krate::words::part(__words, #at, #next)) }));
     }
     let end = format_ident!("__AT_{}", model.fields.len());
-    let end = if model.fields.is_empty() { quote!(0) } else { quote!(#end) };
+    let mut consts = begins(krate, &counts);
     consts.extend(quote!(const __END: __core::primitive::usize = #end;));
     let load = construct(quote!(Self), &model.fields, &loads);
-    let layout = quote!(#krate::layout::Layout::of("struct") #(#layouts)*);
+    let layout = layout(quote!(#krate::layout::Layout::of("struct")), &layouts);
     Places { consts, stores, load, layout }
 }
 

@@ -69,12 +69,18 @@ impl<K> Section<K> {
     }
 
     /// The data of record `index`, padding included; begins at a multiple of 16.
+    ///
+    /// # Panics
+    /// If there is no such record.
     pub fn data(&self, index: usize) -> &[u8] {
         let begin = index * self.stride;
         &self.bytes()[begin + HEADER_SIZE..begin + self.stride]
     }
 
     /// The header of record `index`, for the backend to fill in.
+    ///
+    /// # Panics
+    /// If there is no such record.
     pub fn header_mut(&mut self, index: usize) -> &mut [u8] {
         let begin = index * self.stride;
         &mut self.bytes.bytes_mut()[begin..begin + HEADER_SIZE]

@@ -3,7 +3,7 @@
 use super::model::{Party, Payload, Transport};
 use crate::data::{docs_or, touch};
 use crate::shape::Struct;
-use crate::support::{block, device_crate, moved, place_of};
+use crate::support::{begins, block, device_crate, layout, moved, place_of};
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 
@@ -67,21 +67,15 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
         }
     });
 
-    let (mut places, mut fields, mut layouts, mut semantics) =
-        (TokenStream::new(), Vec::new(), Vec::new(), TokenStream::new());
+    let (mut counts, mut fields, mut layouts, mut semantics) = (Vec::new(), Vec::new(), Vec::new(), TokenStream::new());
     for (i, (field, access)) in shape.fields.iter().zip(&payload.access).enumerate() {
         let ty = &field.ty;
-        let (at, count, next) =
-            (format_ident!("__AT_{i}"), format_ident!("__COUNT_{i}"), format_ident!("__AT_{}", i + 1));
+        let (at, next) = (format_ident!("__AT_{i}"), format_ident!("__AT_{}", i + 1));
         let span = place_of(ty);
         let krate = moved(krate, span);
-        let words = quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT);
-        places.extend(quote! {
-            const #count: __core::primitive::usize = #words;
-            const #next: __core::primitive::usize = #at + #count;
-        });
+        counts.push(quote_spanned!(span=> <#ty as #krate::words::Words>::COUNT));
         let name = field.name();
-        fields.push(quote!(#krate::payload::Field { name: #name, at: #at, count: #count }));
+        fields.push(quote!(#krate::payload::Field { name: #name, at: #at, count: #next - #at }));
         let layout = quote_spanned!(span=> <#ty as #krate::words::Words>::LAYOUT);
         layouts.push(quote!(.field(#name, #at, #layout)));
         let bits = Party::ALL.into_iter().flat_map(|party| {
@@ -102,7 +96,8 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
         Transport::Registers => quote!(__WORDS),
         Transport::Pointer => quote!(2),
     };
-    let end = format_ident!("__AT_{}", shape.fields.len());
+    let (places, end) = (begins(krate, &counts), format_ident!("__AT_{}", shape.fields.len()));
+    let layout = layout(quote!(#krate::layout::Layout::of("payload")), &layouts);
     let span = place_of(ident);
     let moved_krate = moved(krate, span);
     let check = match payload.transport {
@@ -138,7 +133,6 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
     let touch = touch(shape);
 
     let items = block(quote! {
-            const __AT_0: __core::primitive::usize = 0;
             #places
             const __WORDS: __core::primitive::usize = #end;
             const __REGISTERS: __core::primitive::usize = #registers;
@@ -153,7 +147,7 @@ pub fn emit(payload: &Payload, sound: bool) -> TokenStream {
                 const NAME: &'static __core::primitive::str = #name;
                 const WORDS: __core::primitive::usize = __WORDS;
                 const FIELDS: &'static [#krate::payload::Field] = &[#(#fields),*];
-                const LAYOUT: #krate::layout::Layout = #krate::layout::Layout::of("payload") #(#layouts)*;
+                const LAYOUT: #krate::layout::Layout = #layout;
                 const SEMANTICS: &'static [__core::primitive::u32] = &__SEMANTICS;
                 const SEMANTICS_AT_TRAVERSE: &'static [__core::primitive::u32] =
                     &#krate::payload::semantics::at_traverse(__SEMANTICS);
@@ -271,10 +265,7 @@ fn part_impls(payload: &Payload, part: &Part) -> TokenStream {
     let (krate, payload_ident, ident) = (&device_crate(), &shape.ident, &part.ident);
     let passage = passage(payload, part, &quote!(__part), &quote!(self));
     let places = part.fields.iter().map(|i| (format_ident!("__AT_{i}"), format_ident!("__AT_{}", i + 1)));
-    let masks = part.fields.iter().map(|i| {
-        let (at, count) = (format_ident!("__AT_{i}"), format_ident!("__COUNT_{i}"));
-        quote!(#krate::payload::word_mask(#at, #count))
-    });
+    let masks = places.clone().map(|(at, next)| quote!(#krate::payload::word_mask(#at, #next - #at)));
     let (indices, transport) = (&part.fields, transport(payload));
     let fields: Vec<_> = part.fields.iter().map(|&i| &shape.fields[i]).collect();
     let loads = fields.iter().zip(places.clone()).map(|(field, (at, next))| {

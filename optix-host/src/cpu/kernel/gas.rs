@@ -48,6 +48,9 @@ impl TriangleInput {
     }
 
     /// The corners of a triangle, counted without the offset.
+    ///
+    /// # Panics
+    /// If there is no such triangle, or it has an index of no vertex.
     pub fn triangle(&self, triangle: usize) -> [[f32; 3]; 3] {
         self.corners(triangle).map(|i| self.vertices[i])
     }
