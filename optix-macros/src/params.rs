@@ -252,10 +252,12 @@ fn not_assigned(model: &Struct, view: &Ident) -> Option<TokenStream> {
     let members: Vec<_> = model.fields.iter().map(|field| &field.member).collect();
     Some(quote! {
         mod __read_only {
-            // Read only where a program writes `params().field`.
-            #[allow(dead_code)]
             pub struct #read_only { #(#members: (),)* }
             pub static FIELDS: #read_only = #read_only { #(#members: ()),* };
+            // Where no program writes `params().field` they would be dead code.
+            const _: fn(&#read_only) = |__all| {
+                #(let _ = &__all.#members;)*
+            };
         }
         #[automatically_derived]
         impl __core::ops::Deref for #view<'_> {
