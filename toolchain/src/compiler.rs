@@ -181,7 +181,7 @@ impl DeviceCompiler {
     }
 
     /// The edition that this compiler's `core` is written in.
-    pub(crate) fn core_edition(&self) -> Result<String, Error> {
+    pub fn core_edition(&self) -> Result<String, Error> {
         let manifest = self.library.join("core/Cargo.toml");
         let text = crate::util::read(&manifest)?;
         let edition = text.lines().find_map(|line| line.trim().strip_prefix("edition = \"")?.strip_suffix('"'));

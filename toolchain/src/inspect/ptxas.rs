@@ -17,8 +17,8 @@ use std::process::Command;
 
 use optix_ptx::{Instruction, Module, Parts, Statement, operands};
 
+use crate::cache::cache;
 use crate::error::{Doing, Error};
-use crate::nvvm;
 use crate::ptx::demangled;
 use crate::util;
 
@@ -60,7 +60,10 @@ impl Ptxas {
         let roots = roots.chain(["/usr/local/cuda".into(), "/opt/cuda".into()]);
         let toolkits = roots.map(|root| root.join("bin/ptxas").into_os_string());
         let found = std::iter::once(OsString::from("ptxas")).chain(toolkits).find_map(Self::at);
-        let cached = || nvvm::cached("bin/ptxas").into_iter().find_map(|path| Self::at(path.into_os_string()));
+        let cached = || {
+            let programs = cache().map(|cache| optix_nvvm::cached(&cache, "bin/ptxas")).unwrap_or_default();
+            programs.into_iter().find_map(|path| Self::at(path.into_os_string()))
+        };
         found.or_else(cached).or_else(|| wheels().into_iter().find_map(|path| Self::at(path.into_os_string())))
     }
 

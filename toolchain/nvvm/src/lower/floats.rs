@@ -1,0 +1,220 @@
+//! Float operations that LLVM 7 or libNVVM does not know.
+
+use super::builder::{Builder, constant, float};
+use super::libdevice;
+use crate::model::{Op, Type, Typed, Value};
+use crate::refusal::Unknown;
+
+/// Keeps libNVVM from what it fails at: it joins stores to a vector of eight halves, which it can't store, and has no conversion
+/// of a half to 128 bits.
+pub(super) fn avoid_halves(builder: &mut Builder<'_>, op: &mut Op) {
+    match op {
+        // It joins no more than are known to be aligned.
+        Op::Store { value, align: Some(align), .. } if value.ty == Type::Half => *align = (*align).min(8),
+        Op::Cast { op, value, to: Type::Int(65..) } if value.ty == Type::Half && op.starts_with("fpto") => {
+            // The greatest half is 65,504, and what does not fit is undefined.
+            let extend = if op == "fptosi" { "sext" } else { "zext" };
+            *value = builder.cast(op, value, &Type::Int(32));
+            *op = extend.into();
+        }
+        _ => {}
+    }
+}
+
+/// The number below one half, in either type: added before cutting off, it rounds to the nearest integer, ties away.
+const BELOW_HALF: (f64, f64) = (f32::from_bits(0x3eff_ffff) as f64, 0.499_999_999_999_999_94);
+
+/// How intrinsics of NVVM name the two types.
+fn letter(ty: &Type) -> Result<char, Unknown> {
+    match ty {
+        Type::Float => Ok('f'),
+        Type::Double => Ok('d'),
+        _ => Err(Unknown::new(format!("a float operation on {ty:?}")).hint("use `f32` there")),
+    }
+}
+
+pub(super) fn negate(builder: &mut Builder<'_>, value: &Typed) -> Result<Typed, Unknown> {
+    if *value.ty.element() == Type::Half {
+        let ty = value.ty.with_element(Type::Int(16));
+        let bits = builder.cast("bitcast", value, &ty);
+        let bits = builder.with("xor", &bits, -0x8000);
+        return Ok(builder.cast("bitcast", &bits, &value.ty));
+    }
+    // What LLVM 7 understands as a negation.
+    Ok(builder.binary("fsub", &float(&value.ty, -0.0), value))
+}
+
+/// `frem`, which LLVM 7 would compute by a rounded division.
+pub(super) fn remainder(builder: &mut Builder<'_>, a: &Typed, b: &Typed) -> Result<Typed, Unknown> {
+    elementwise(builder, &[a.clone(), b.clone()], &|builder, args| {
+        libdevice::call(builder, "fmod", &[&args[0], &args[1]])
+    })
+}
+
+/// What is done to scalars of one type.
+type Scalar<'f> = dyn Fn(&mut Builder<'_>, &[Typed]) -> Result<Typed, Unknown> + 'f;
+
+/// `f` of each element, in `float` where the elements are `half`: exact or rounded twice without harm for what it is used for.
+fn elementwise(builder: &mut Builder<'_>, arguments: &[Typed], f: &Scalar<'_>) -> Result<Typed, Unknown> {
+    let ty = arguments[0].ty.clone();
+    match &ty {
+        Type::Vector(count, _) => {
+            let mut result = Typed::new(ty.clone(), Value::Undef);
+            for index in 0..*count {
+                let of: Vec<_> = arguments.iter().map(|argument| builder.extract(argument, index)).collect();
+                let element = elementwise(builder, &of, f)?;
+                result = builder.insert(&result, element, index);
+            }
+            Ok(result)
+        }
+        Type::Half => {
+            let wide: Vec<_> = arguments.iter().map(|value| builder.cast("fpext", value, &Type::Float)).collect();
+            let result = f(builder, &wide)?;
+            Ok(builder.cast("fptrunc", &result, &ty))
+        }
+        _ => f(builder, arguments),
+    }
+}
+
+/// A function of one float type with one to three arguments, by LLVM's name. None: it is no such function.
+pub(super) fn function(builder: &mut Builder<'_>, name: &str, arguments: &[Typed]) -> Option<Result<Typed, Unknown>> {
+    if arguments[0].ty == Type::Half && matches!(name, "fma" | "fmuladd") {
+        return Some(Err(Unknown::new("`fma` of `f16`").hint("use `f32` there")));
+    }
+    let known = match (name, arguments.len()) {
+        ("sqrt" | "floor" | "ceil", 1) | ("copysign", 2) | ("fma", 3) => native,
+        ("fabs" | "trunc" | "rint" | "nearbyint" | "roundeven", 1) => of_nvvm,
+        ("maxnum" | "maximumnum" | "minnum" | "minimumnum", 2) => of_nvvm,
+        ("round", 1) => round,
+        ("maximum" | "minimum", 2) => with_nan,
+        ("fmuladd", 3) => |builder: &mut Builder<'_>, _: &str, a: &[Typed]| {
+            let product = builder.binary("fmul", &a[0], &a[1]);
+            Ok(builder.binary("fadd", &product, &a[2]))
+        },
+        ("canonicalize", 1) => |builder: &mut Builder<'_>, _: &str, a: &[Typed]| {
+            let name = format!("llvm.nvvm.mul.rn.{}", letter(&a[0].ty)?);
+            builder.pure(&name, &a[0].ty, &[&a[0], &float(&a[0].ty, 1.0)])
+        },
+        (name, count) if libdevice::knows(name, count) => |builder: &mut Builder<'_>, name: &str, a: &[Typed]| {
+            libdevice::call(builder, name, &a.iter().collect::<Vec<_>>())
+        },
+        _ => return None,
+    };
+    Some(elementwise(builder, arguments, &|builder, arguments| known(builder, name, arguments)))
+}
+
+fn native(builder: &mut Builder<'_>, name: &str, arguments: &[Typed]) -> Result<Typed, Unknown> {
+    let ty = &arguments[0].ty;
+    let bits = if letter(ty)? == 'f' { 32 } else { 64 };
+    builder.pure(&format!("llvm.{name}.f{bits}"), ty, &arguments.iter().collect::<Vec<_>>())
+}
+
+fn of_nvvm(builder: &mut Builder<'_>, name: &str, arguments: &[Typed]) -> Result<Typed, Unknown> {
+    let ty = &arguments[0].ty;
+    let name = match name {
+        "maxnum" | "maximumnum" => "fmax",
+        "minnum" | "minimumnum" => "fmin",
+        // NVVM's `round` goes to the even integer on a tie.
+        "rint" | "nearbyint" | "roundeven" => "round",
+        name => name,
+    };
+    builder.pure(&format!("llvm.nvvm.{name}.{}", letter(ty)?), ty, &arguments.iter().collect::<Vec<_>>())
+}
+
+/// To the nearest integer, ties away from zero.
+fn round(builder: &mut Builder<'_>, _: &str, arguments: &[Typed]) -> Result<Typed, Unknown> {
+    let (a, letter) = (&arguments[0], letter(&arguments[0].ty)?);
+    let half = float(&a.ty, if letter == 'f' { BELOW_HALF.0 } else { BELOW_HALF.1 });
+    let half = native(builder, "copysign", &[half, a.clone()])?;
+    // As an intrinsic it is never contracted with a product before it.
+    let sum = builder.pure(&format!("llvm.nvvm.add.rn.{letter}"), &a.ty, &[a, &half])?;
+    builder.pure(&format!("llvm.nvvm.trunc.{letter}"), &a.ty, &[&sum])
+}
+
+/// `maximum` and `minimum`, which are NaN if an operand is.
+fn with_nan(builder: &mut Builder<'_>, name: &str, arguments: &[Typed]) -> Result<Typed, Unknown> {
+    let (a, b) = (&arguments[0], &arguments[1]);
+    let number = of_nvvm(builder, if name == "maximum" { "maxnum" } else { "minnum" }, arguments)?;
+    let unordered = builder.compare("uno", a, b);
+    let nan = builder.binary("fadd", a, b);
+    Ok(builder.select(&unordered, &nan, &number))
+}
+
+/// A float to the nearest integer towards zero that the type has; NaN to 0.
+pub(super) fn to_integer(builder: &mut Builder<'_>, signed: bool, value: &Typed, to: &Type) -> Result<Typed, Unknown> {
+    let value = &if value.ty == Type::Half { builder.cast("fpext", value, &Type::Float) } else { value.clone() };
+    let letter = letter(&value.ty)?;
+    let bits = match to {
+        Type::Int(bits @ 1..=64) => *bits,
+        _ => return Err(Unknown::new(format!("a float to {to:?}")).hint("convert to 64 bits or fewer")),
+    };
+    let (wide, int) = if bits <= 32 { (32, "i") } else { (64, "ll") };
+    let ty = Type::Int(wide);
+    // The instruction saturates at the limits of its own type.
+    let name = format!("llvm.nvvm.{letter}2{}{int}.rz", if signed { "" } else { "u" });
+    let mut result = builder.pure(&name, &ty, &[value])?;
+    if letter == 'd' || wide == 64 {
+        // Only from `float` to 32 bits does it give 0 for NaN.
+        let nan = builder.compare("uno", value, value);
+        result = builder.select(&nan, &constant(&ty, 0), &result);
+    }
+    if bits < wide {
+        let limits = if signed { (-(1_i128 << (bits - 1)), (1 << (bits - 1)) - 1) } else { (0, (1 << bits) - 1) };
+        if signed {
+            result = builder.select_by("sgt", &result, &constant(&ty, limits.0));
+        }
+        result = builder.select_by(if signed { "slt" } else { "ult" }, &result, &constant(&ty, limits.1));
+    }
+    Ok(builder.cast("trunc", &result, to))
+}
+
+/// Whether a float is of one of the classes in the mask, as LLVM numbers them.
+pub(super) fn is_class(builder: &mut Builder<'_>, value: &Typed, mask: u32) -> Result<Typed, Unknown> {
+    let (bits, mantissa) = match value.ty {
+        Type::Half => (16, 10),
+        Type::Float => (32, 23),
+        Type::Double => (64, 52),
+        _ => return Err(Unknown::new(format!("the class of {:?}", value.ty))),
+    };
+    let ty = Type::Int(bits);
+    let number = |value: i128| constant(&ty, value);
+    let infinity = ((1_i128 << (bits - 1 - mantissa)) - 1) << mantissa;
+    let least_normal = 1_i128 << mantissa;
+    let word = builder.cast("bitcast", value, &ty);
+    let magnitude = builder.with("and", &word, (1 << (bits - 1)) - 1);
+    let negative = builder.compare("slt", &word, &number(0));
+
+    let mut is = Typed::int(1, 0);
+    // Signalling NaNs have a zero in the first bit of the mantissa.
+    if mask & 3 == 3 {
+        let nan = builder.compare("ugt", &magnitude, &number(infinity));
+        is = builder.binary("or", &is, &nan);
+    } else if mask & 3 != 0 {
+        let quiet = infinity | (least_normal >> 1);
+        let nan = if mask & 3 == 2 {
+            builder.compare("uge", &magnitude, &number(quiet))
+        } else {
+            let above = builder.compare("ugt", &magnitude, &number(infinity));
+            let below = builder.compare("ult", &magnitude, &number(quiet));
+            builder.binary("and", &above, &below)
+        };
+        is = builder.binary("or", &is, &nan);
+    }
+    // The bit of the class with a minus, and of that with a plus; the magnitudes from the first to before the last.
+    let classes =
+        [(2, 9, infinity, infinity + 1), (3, 8, least_normal, infinity), (4, 7, 1, least_normal), (5, 6, 0, 1)];
+    for (minus, plus, first, end) in classes {
+        let (minus, plus) = (mask >> minus & 1 == 1, mask >> plus & 1 == 1);
+        if !minus && !plus {
+            continue;
+        }
+        let above = builder.with("sub", &magnitude, first);
+        let mut inside = builder.compare("ult", &above, &number(end - first));
+        if minus != plus {
+            let sign = if minus { negative.clone() } else { builder.with("xor", &negative, 1) };
+            inside = builder.binary("and", &inside, &sign);
+        }
+        is = builder.binary("or", &is, &inside);
+    }
+    Ok(is)
+}

@@ -1,0 +1,127 @@
+//! `freeze`: any value in place of an undefined one, but the same wherever it is used.
+//!
+//! LLVM 7 has nothing like it. A value that is defined stays as it is; any other passes through a `mov` in inline
+//! assembly, which LLVM can't see through and the assembler removes.
+
+use std::collections::HashSet;
+
+use super::builder::Builder;
+use crate::model::{Callee, Function, Instruction, Op, Type, Typed, Value};
+use crate::refusal::Unknown;
+
+pub(super) fn lower(builder: &mut Builder<'_>, value: &Typed) -> Result<Typed, Unknown> {
+    if is_defined(&value.value, &builder.defined) {
+        return Ok(value.clone());
+    }
+    if let Type::Vector(count, _) = &value.ty {
+        let mut frozen = Typed::new(value.ty.clone(), Value::Undef);
+        for index in 0..*count {
+            let element = builder.extract(value, index);
+            let element = scalar(builder, &element)?;
+            frozen = builder.insert(&frozen, element, index);
+        }
+        return Ok(frozen);
+    }
+    scalar(builder, value)
+}
+
+fn scalar(builder: &mut Builder<'_>, value: &Typed) -> Result<Typed, Unknown> {
+    let moved = |builder: &mut Builder<'_>, value: &Typed| match value.ty.bits() {
+        Some(32) => Ok(builder.asm("mov.b32 $0, $1;", "=r,r", &value.ty, &[value])),
+        Some(64) => Ok(builder.asm("mov.b64 $0, $1;", "=l,l", &value.ty, &[value])),
+        _ => Err(Unknown::new(format!("`freeze` of {:?}", value.ty))),
+    };
+    match value.ty {
+        Type::Int(bits) if bits < 32 => {
+            let wide = builder.cast("zext", value, &Type::Int(32));
+            let wide = moved(builder, &wide)?;
+            Ok(builder.cast("trunc", &wide, &value.ty))
+        }
+        Type::Int(bits @ 33..64) => {
+            let wide = builder.cast("zext", value, &Type::Int(64));
+            let wide = moved(builder, &wide)?;
+            Ok(builder.cast("trunc", &wide, &Type::Int(bits)))
+        }
+        Type::Int(128) => {
+            let half = Type::Int(64);
+            let low = builder.cast("trunc", value, &half);
+            let low = moved(builder, &low)?;
+            let high = builder.with("lshr", value, 64);
+            let high = builder.cast("trunc", &high, &half);
+            let high = moved(builder, &high)?;
+            let low = builder.cast("zext", &low, &value.ty);
+            let high = builder.cast("zext", &high, &value.ty);
+            let high = builder.with("shl", &high, 64);
+            Ok(builder.binary("or", &high, &low))
+        }
+        Type::Half => {
+            let bits = builder.cast("bitcast", value, &Type::Int(16));
+            let bits = scalar(builder, &bits)?;
+            Ok(builder.cast("bitcast", &bits, &Type::Half))
+        }
+        Type::Float | Type::Double => {
+            let bits = Type::Int(value.ty.bits().unwrap_or(64));
+            let frozen = builder.cast("bitcast", value, &bits);
+            let frozen = moved(builder, &frozen)?;
+            Ok(builder.cast("bitcast", &frozen, &value.ty))
+        }
+        _ => moved(builder, value),
+    }
+}
+
+/// The local names whose values can't be undefined, as far as one pass finds them.
+pub(super) fn defined(function: &Function) -> HashSet<String> {
+    let mut defined = HashSet::new();
+    for parameter in &function.parameters {
+        if let Value::Local(name) = &parameter.value.value
+            && parameter.attributes.iter().any(|attribute| attribute == "noundef")
+        {
+            defined.insert(name.clone());
+        }
+    }
+    for instruction in function.blocks.iter().flat_map(|block| &block.instructions) {
+        if let Some(name) = &instruction.result
+            && gives_defined(instruction, &defined)
+        {
+            defined.insert(name.clone());
+        }
+    }
+    defined
+}
+
+fn is_defined(value: &Value, defined: &HashSet<String>) -> bool {
+    match value {
+        Value::Local(name) => defined.contains(name),
+        Value::Number(_) | Value::Null | Value::Zero | Value::Global(_) => true,
+        Value::Aggregate(elements) => elements.iter().all(|element| is_defined(&element.value, defined)),
+        _ => false,
+    }
+}
+
+fn gives_defined(instruction: &Instruction, defined: &HashSet<String>) -> bool {
+    let is = |value: &Value| is_defined(value, defined);
+    match &instruction.op {
+        Op::Freeze { .. } => true,
+        // Whatever a register holds is a value.
+        Op::Call(call) => matches!(call.callee, Callee::Asm { .. }),
+        Op::Load { .. } => instruction.metadata.iter().any(|(name, _)| name == "noundef"),
+        Op::Binary { op, flags, a, b } if flags.is_empty() => {
+            let operands = is(&a.value) && is(b);
+            match op.as_str() {
+                "shl" | "lshr" | "ashr" => {
+                    let bits = a.ty.bits().unwrap_or(0);
+                    operands && b.as_int().is_some_and(|amount| (0..i128::from(bits)).contains(&amount))
+                }
+                op => operands && !op.ends_with("div") && !op.ends_with("rem"),
+            }
+        }
+        Op::Compare { flags, a, b, .. } if flags.is_empty() => is(&a.value) && is(b),
+        Op::Negate { value } => is(&value.value),
+        // The value of what does not fit an integer is undefined.
+        Op::Cast { op, value, .. } => !matches!(op.as_str(), "fptoui" | "fptosi") && is(&value.value),
+        Op::Select { condition, yes, no } => [condition, yes, no].iter().all(|operand| is(&operand.value)),
+        Op::Phi { incoming, .. } => incoming.iter().all(|(value, _)| is(value)),
+        Op::ExtractValue { aggregate, .. } => is(&aggregate.value),
+        _ => false,
+    }
+}

@@ -1,0 +1,240 @@
+//! Integer operations that LLVM 7 does not know, or not in every width.
+
+use super::builder::{Builder, constant};
+use crate::model::{Type, Typed};
+use crate::refusal::Unknown;
+
+/// The way out for arithmetic of more than 64 bits.
+const NARROWER: &str = "use integers of up to 64 bits there";
+
+fn bits(value: &Typed) -> Result<u32, Unknown> {
+    match value.ty {
+        Type::Int(bits) => Ok(bits),
+        _ => Err(Unknown::new(format!("an integer operation on {:?}", value.ty))),
+    }
+}
+
+/// The largest value of that many bits, with a sign.
+fn signed_max(bits: u32) -> i128 {
+    i128::MAX >> (128 - bits)
+}
+
+/// `umin`, `smax` and the like; `predicate` holds between the first operand and the second if the first is the result.
+pub(super) fn least(builder: &mut Builder<'_>, predicate: &str, a: &Typed, b: &Typed) -> Typed {
+    builder.select_by(predicate, a, b)
+}
+
+/// `abs`; that of the smallest integer is itself.
+pub(super) fn abs(builder: &mut Builder<'_>, a: &Typed) -> Typed {
+    let zero = constant(&a.ty, 0);
+    let negated = builder.binary("sub", &zero, a);
+    let negative = builder.compare("slt", a, &zero);
+    builder.select(&negative, &negated, a)
+}
+
+/// `ucmp` and `scmp`: -1, 0 or 1 of the type `to`.
+pub(super) fn three_way(builder: &mut Builder<'_>, signed: bool, a: &Typed, b: &Typed, to: &Type) -> Typed {
+    let (less, greater) = if signed { ("slt", "sgt") } else { ("ult", "ugt") };
+    let less = builder.compare(less, a, b);
+    let less = builder.select(&less, &constant(to, -1), &constant(to, 0));
+    let greater = builder.compare(greater, a, b);
+    builder.select(&greater, &constant(to, 1), &less)
+}
+
+/// `fshl` and `fshr`: the high or the low half of two integers side by side, shifted by `amount` modulo the bits.
+pub(super) fn funnel(
+    builder: &mut Builder<'_>,
+    left: bool,
+    high: &Typed,
+    low: &Typed,
+    amount: &Typed,
+) -> Result<Typed, Unknown> {
+    let bits = bits(high)?;
+    let (there, back) = if left { ("shl", "lshr") } else { ("lshr", "shl") };
+    let (near, far) = if left { (high, low) } else { (low, high) };
+    if let Some(amount) = amount.value.as_int() {
+        let amount = amount.rem_euclid(i128::from(bits));
+        if amount == 0 {
+            return Ok(near.clone());
+        }
+        let near = builder.with(there, near, amount);
+        let far = builder.with(back, far, i128::from(bits) - amount);
+        return Ok(builder.binary("or", &near, &far));
+    }
+    if bits == 32 {
+        // One instruction, which takes the amount modulo 32.
+        let text = format!("shf.{}.wrap.b32 $0, $1, $2, $3;", if left { 'l' } else { 'r' });
+        return Ok(builder.asm(&text, "=r,r,r,r", &high.ty, &[low, high, amount]));
+    }
+    let most = i128::from(bits) - 1;
+    let amount = if bits.is_power_of_two() {
+        builder.with("and", amount, most)
+    } else {
+        builder.with("urem", amount, i128::from(bits))
+    };
+    // A shift by all of the bits is undefined: the far half goes by one first.
+    let rest = builder.binary("sub", &constant(&amount.ty, most), &amount);
+    let near = builder.binary(there, near, &amount);
+    let far = builder.with(back, far, 1);
+    let far = builder.binary(back, &far, &rest);
+    Ok(builder.binary("or", &near, &far))
+}
+
+/// The result of an operation, and whether it went out of range.
+pub(super) struct Overflowing {
+    pub result: Typed,
+    pub out: Typed,
+}
+
+/// Addition and subtraction.
+pub(super) fn overflowing(builder: &mut Builder<'_>, signed: bool, op: &str, a: &Typed, b: &Typed) -> Overflowing {
+    let result = builder.binary(op, a, b);
+    let out = match (signed, op) {
+        (false, "add") => builder.compare("ult", &result, a),
+        (false, _) => builder.compare("ult", a, b),
+        (true, _) => {
+            // Out of range: the operands' signs allow it, and the result's differs from the first one's.
+            let one = builder.binary("xor", a, &result);
+            let other = if op == "add" { builder.binary("xor", b, &result) } else { builder.binary("xor", a, b) };
+            let both = builder.binary("and", &one, &other);
+            builder.compare("slt", &both, &constant(&a.ty, 0))
+        }
+    };
+    Overflowing { result, out }
+}
+
+/// `add`, `sub` or `mul` `.with.overflow` in the width that the caller has. LLVM 7 has multiplications of 16 to 64 bits.
+pub(super) fn with_overflow(
+    builder: &mut Builder<'_>,
+    signed: bool,
+    op: &str,
+    a: &Typed,
+    b: &Typed,
+) -> Result<Typed, Unknown> {
+    let overflowing = match (op, bits(a)?) {
+        ("add" | "sub", _) => overflowing(builder, signed, op, a, b),
+        (_, bits @ (16 | 32 | 64)) => {
+            let name = format!("llvm.{}mul.with.overflow.i{bits}", if signed { 's' } else { 'u' });
+            let pair = Type::Struct { fields: vec![a.ty.clone(), Type::BOOL], packed: false };
+            return builder.pure(&name, &pair, &[a, b]);
+        }
+        (_, bits) if bits <= 32 => {
+            let wide = Type::Int(64);
+            let extend = if signed { "sext" } else { "zext" };
+            let (wide_a, wide_b) = (builder.cast(extend, a, &wide), builder.cast(extend, b, &wide));
+            let product = builder.binary("mul", &wide_a, &wide_b);
+            let result = builder.cast("trunc", &product, &a.ty);
+            let again = builder.cast(extend, &result, &wide);
+            Overflowing { result, out: builder.compare("ne", &product, &again) }
+        }
+        (_, 128) => checked_product(builder, signed, a, b),
+        (_, bits) => {
+            return Err(Unknown::new(format!("a checked multiplication of {bits} bits")).hint(NARROWER));
+        }
+    };
+    Ok(builder.pair(&overflowing.result, &overflowing.out))
+}
+
+/// A product that fits if dividing it by one factor gives the other.
+fn checked_product(builder: &mut Builder<'_>, signed: bool, a: &Typed, b: &Typed) -> Overflowing {
+    let result = builder.binary("mul", a, b);
+    let (zero, one, minus_one) = (constant(&a.ty, 0), constant(&a.ty, 1), constant(&a.ty, -1));
+    let by_zero = builder.compare("eq", a, &zero);
+    let mut divisor = builder.select(&by_zero, &one, a);
+    let negates = builder.compare("eq", a, &minus_one);
+    if signed {
+        // The least number divided by -1 has no quotient, and by -1 no other product overflows.
+        divisor = builder.select(&negates, &one, &divisor);
+    }
+    let quotient = builder.binary(if signed { "sdiv" } else { "udiv" }, &result, &divisor);
+    let differs = builder.compare("ne", &quotient, b);
+    let not_zero = builder.compare("ne", a, &zero);
+    let mut out = builder.binary("and", &differs, &not_zero);
+    if signed {
+        let least = builder.compare("eq", b, &constant(&a.ty, i128::MIN));
+        out = builder.select(&negates, &least, &out);
+    }
+    Overflowing { result, out }
+}
+
+/// `uadd.sat` and its kin.
+pub(super) fn saturating(
+    builder: &mut Builder<'_>,
+    signed: bool,
+    op: &str,
+    a: &Typed,
+    b: &Typed,
+) -> Result<Typed, Unknown> {
+    let bits = bits(a)?;
+    let (result, out) = if op == "shl" {
+        let result = builder.binary("shl", a, b);
+        let back = builder.binary(if signed { "ashr" } else { "lshr" }, &result, b);
+        let out = builder.compare("ne", &back, a);
+        (result, out)
+    } else {
+        let Overflowing { result, out } = overflowing(builder, signed, op, a, b);
+        (result, out)
+    };
+    let limit = if signed {
+        // The limit is on the side of the first operand: 0 or -1, with all bits but the sign turned.
+        let sign = builder.with("ashr", a, i128::from(bits) - 1);
+        builder.with("xor", &sign, signed_max(bits))
+    } else {
+        constant(&a.ty, if op == "sub" { 0 } else { -1 })
+    };
+    Ok(builder.select(&out, &limit, &result))
+}
+
+/// `ctpop`, `ctlz`, `cttz`, `bswap` and `bitreverse`, of 128 bits by halves.
+pub(super) fn bit_operation(builder: &mut Builder<'_>, op: &str, a: &Typed) -> Result<Typed, Unknown> {
+    let known: &[u32] = if op == "bswap" { &[16, 32, 64] } else { &[8, 16, 32, 64] };
+    match bits(a)? {
+        bits if known.contains(&bits) => {
+            let name = format!("llvm.{op}.i{bits}");
+            if matches!(op, "ctlz" | "cttz") {
+                // That of zero is the number of bits: never undefined, and one instruction all the same.
+                return builder.pure(&name, &a.ty, &[a, &Typed::int(1, 0)]);
+            }
+            builder.pure(&name, &a.ty, &[a])
+        }
+        128 => {
+            let half = Type::Int(64);
+            let low = builder.cast("trunc", a, &half);
+            let high = builder.with("lshr", a, 64);
+            let high = builder.cast("trunc", &high, &half);
+            let of_low = bit_operation(builder, op, &low)?;
+            let of_high = bit_operation(builder, op, &high)?;
+            let wide_low = builder.cast("zext", &of_low, &a.ty);
+            let wide_high = builder.cast("zext", &of_high, &a.ty);
+            Ok(match op {
+                "ctpop" => builder.binary("add", &wide_low, &wide_high),
+                "ctlz" | "cttz" => {
+                    let (first, of_first, of_second) =
+                        if op == "ctlz" { (high, wide_high, wide_low) } else { (low, wide_low, wide_high) };
+                    let second = builder.with("add", &of_second, 64);
+                    let empty = builder.compare("eq", &first, &constant(&half, 0));
+                    builder.select(&empty, &second, &of_first)
+                }
+                _ => {
+                    let high = builder.with("shl", &wide_low, 64);
+                    builder.binary("or", &high, &wide_high)
+                }
+            })
+        }
+        // Another width: as a part of the next known one.
+        bits if bits < 64 && matches!(op, "ctpop" | "ctlz" | "cttz") => {
+            let wide = builder.cast("zext", a, &Type::Int(64));
+            let wide = match op {
+                "ctlz" => {
+                    let top = builder.with("shl", &wide, i128::from(64 - bits));
+                    builder.with("or", &top, (1 << (64 - bits)) >> 1)
+                }
+                "cttz" => builder.with("or", &wide, 1 << bits),
+                _ => wide,
+            };
+            let count = bit_operation(builder, op, &wide)?;
+            Ok(builder.cast("trunc", &count, &a.ty))
+        }
+        bits => Err(Unknown::new(format!("`{op}` of {bits} bits")).hint(NARROWER)),
+    }
+}

@@ -1,0 +1,49 @@
+//! `llvm.vector.reduce.*`: all elements of a vector into one.
+
+use super::builder::Builder;
+use super::{floats, integers};
+use crate::model::{Type, Typed};
+use crate::refusal::Unknown;
+
+pub(super) fn lower(builder: &mut Builder<'_>, op: &str, arguments: &[Typed]) -> Result<Typed, Unknown> {
+    // Sums and products of floats have a first value before the vector, and go from left to right.
+    let (first, vector) = match arguments {
+        [first, vector] if matches!(op, "fadd" | "fmul") => (Some(first.clone()), vector),
+        [vector] => (None, vector),
+        _ => return Err(Unknown::new(format!("`vector.reduce.{op}` of {} arguments", arguments.len()))),
+    };
+    let Type::Vector(count, _) = vector.ty else {
+        return Err(Unknown::new("a reduction of what is no vector"));
+    };
+    let mut all = first;
+    for index in 0..count {
+        let next = builder.extract(vector, index);
+        all = Some(match all {
+            None => next,
+            Some(so_far) => combine(builder, op, &so_far, &next)?,
+        });
+    }
+    all.ok_or_else(|| Unknown::new("a reduction of nothing"))
+}
+
+fn combine(builder: &mut Builder<'_>, op: &str, a: &Typed, b: &Typed) -> Result<Typed, Unknown> {
+    let predicate = match op {
+        "add" | "mul" | "and" | "or" | "xor" | "fadd" | "fmul" => return Ok(builder.binary(op, a, b)),
+        "smax" => "sgt",
+        "smin" => "slt",
+        "umax" => "ugt",
+        "umin" => "ult",
+        "fmax" | "fmin" | "fmaximum" | "fminimum" => {
+            let name = match op {
+                "fmax" => "maxnum",
+                "fmin" => "minnum",
+                "fmaximum" => "maximum",
+                _ => "minimum",
+            };
+            let unknown = || Err(Unknown::new(format!("`vector.reduce.{op}`")));
+            return floats::function(builder, name, &[a.clone(), b.clone()]).unwrap_or_else(unknown);
+        }
+        _ => return Err(Unknown::new(format!("`vector.reduce.{op}`"))),
+    };
+    Ok(integers::least(builder, predicate, a, b))
+}
