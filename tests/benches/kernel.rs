@@ -15,8 +15,8 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput};
 use optix_host::cpu::kernel::{
-    Accel, AnyHit, Candidate, Gas, GeometryFlags, Portable, Programs, RayQuery, Reporter, SbtMapping, Site,
-    TriangleInput, ray_flags, trace, trace_with,
+    Accel, AnyHit, Candidate, Gas, GeometryFlags, Programs, RayQuery, Reporter, SbtMapping, Site, TriangleInput,
+    ray_flags, trace, trace_portable,
 };
 use optix_tests::meshes;
 use rayon::prelude::*;
@@ -116,7 +116,7 @@ fn compare(
     let flags = if rays.occlusion { ray_flags::TERMINATE_ON_FIRST_HIT } else { ray_flags::NONE };
     let queries: Vec<RayQuery> = rays.rays.iter().map(|r| RayQuery { flags, ..*r }).collect();
     let ours = |ray: &RayQuery| trace(Some(accel), ray, &mut Opaque).map(|hit| hit.t);
-    let portable = |ray: &RayQuery| trace_with(Portable, Some(accel), ray, &mut Opaque).map(|hit| hit.t);
+    let portable = |ray: &RayQuery| trace_portable(Some(accel), ray, &mut Opaque).map(|hit| hit.t);
     for ray in &queries {
         assert_eq!(ours(ray), portable(ray), "the instruction sets disagree");
     }

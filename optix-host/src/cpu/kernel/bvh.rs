@@ -8,7 +8,7 @@ use super::collapse::{Plan, Shape};
 pub const WIDTH: usize = 8;
 
 /// Eight floats in a vector register's layout.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C, align(32))]
 pub struct Lanes(pub [f32; WIDTH]);
 

@@ -38,5 +38,4 @@ pub use ias::{Accel, Ias, Instance, MAX_GRAPH_DEPTH, Placed};
 pub use path::InstancePath;
 pub use program::{AnyHit, Candidate, Hit, Programs, Reporter, Site};
 pub use ray::{Ray, RayQuery};
-pub use simd::{Portable, Simd};
-pub use trace::{BACK_FACE, FRONT_FACE, trace, trace_with};
+pub use trace::{BACK_FACE, FRONT_FACE, trace, trace_portable};

@@ -17,7 +17,7 @@ pub enum AnyHit {
     Terminate,
 }
 
-/// The programs that run during traversal. The kernel is compiled for each implementor, so empty ones cost nothing.
+/// The programs that run during traversal.
 pub trait Programs {
     /// Called for candidates in `[tmin, tmax]`, at most once for a triangle and once for a report, in no promised order.
     fn any_hit(&mut self, candidate: &Candidate<'_>) -> AnyHit;
@@ -115,7 +115,7 @@ impl Reporter<'_, '_> {
     /// It is not if `t` lies outside `[tmin, tmax]` or is NaN, if the any-hit program ignores it, if it ties with a hit
     /// that wins ties (see [`trace`](super::trace)), or if the ray has ended. Only the lowest 7 bits of `hit_kind` and
     /// the first 8 `attributes` count.
-    pub fn report<P: Programs + ?Sized>(&mut self, programs: &mut P, t: f32, hit_kind: u8, attributes: &[u32]) -> bool {
+    pub fn report(&mut self, programs: &mut dyn Programs, t: f32, hit_kind: u8, attributes: &[u32]) -> bool {
         if !self.state.admits(t, self.path, self.primitive) {
             return false;
         }

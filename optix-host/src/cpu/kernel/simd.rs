@@ -24,8 +24,8 @@ pub trait Simd: Copy {
     fn boxes(self, node: &Node, ray: &BoxRay, depth_max: f32, near: &mut Lanes) -> u32;
 
     /// Bit `i` is clear only if the line of the ray surely passes beside triangle `i`, or if that lies, with all its
-    /// corners, at smaller or at greater depths than `depths`. Also the corners in the ray's sheared space.
-    fn triangles(self, block: &Block, ray: &ShearRay, depths: [f32; 2]) -> (u32, Sheared);
+    /// corners, at smaller or at greater depths than `depths`. Writes the corners in the ray's sheared space.
+    fn triangles(self, block: &Block, ray: &ShearRay, depths: [f32; 2], sheared: &mut Sheared) -> u32;
 }
 
 /// Plain Rust.
@@ -72,9 +72,8 @@ impl Simd for Portable {
     }
 
     #[inline(always)]
-    fn triangles(self, block: &Block, ray: &ShearRay, [near, far]: [f32; 2]) -> (u32, Sheared) {
-        let mut sheared = [[Lanes::splat(0.0); 3]; 3];
-        for (corner, out) in block.corners.iter().zip(&mut sheared) {
+    fn triangles(self, block: &Block, ray: &ShearRay, [near, far]: [f32; 2], sheared: &mut Sheared) -> u32 {
+        for (corner, out) in block.corners.iter().zip(&mut *sheared) {
             let [x, y, z] = ray.axes.map(|a| &corner[a as usize].0);
             let [ox, oy, oz] = ray.origin;
             for i in 0..WIDTH {
@@ -84,7 +83,7 @@ impl Simd for Portable {
                 out[2].0[i] = depth;
             }
         }
-        let [a, b, c] = &sheared;
+        let [a, b, c] = &*sheared;
         let (mut above, mut below, mut beside) = (0, 0, 0);
         for i in 0..WIDTH {
             let [za, zb, zc] = [a, b, c].map(|corner| if ray.major < 0.0 { -corner[2].0[i] } else { corner[2].0[i] });
@@ -101,7 +100,7 @@ impl Simd for Portable {
                 below |= u32::from(value < -bound) << i;
             }
         }
-        (!(above & below | beside) & 0xff, sheared)
+        !(above & below | beside) & 0xff
     }
 }
 
@@ -139,9 +138,9 @@ mod avx2 {
         }
 
         #[inline(always)]
-        fn triangles(self, block: &Block, ray: &ShearRay, depths: [f32; 2]) -> (u32, Sheared) {
+        fn triangles(self, block: &Block, ray: &ShearRay, depths: [f32; 2], sheared: &mut Sheared) -> u32 {
             // SAFETY: as in `run`.
-            unsafe { triangles(block, ray, depths) }
+            unsafe { triangles(block, ray, depths, sheared) }
         }
     }
 
@@ -178,25 +177,26 @@ mod avx2 {
 
     #[inline]
     #[target_feature(enable = "avx2,bmi1")]
-    fn triangles(block: &Block, ray: &ShearRay, [near, far]: [f32; 2]) -> (u32, Sheared) {
-        let [ox, oy, oz] = ray.origin.map(|o| _mm256_set1_ps(o));
-        let [sx, sy] = ray.slope.map(|s| _mm256_set1_ps(s));
-        let shear = |corner: &[Lanes; 3]| {
-            let [x, y, z] = ray.axes.map(|a| load(&corner[a as usize]));
-            let depth = _mm256_sub_ps(z, oz);
-            [
-                _mm256_sub_ps(_mm256_sub_ps(x, ox), _mm256_mul_ps(sx, depth)),
-                _mm256_sub_ps(_mm256_sub_ps(y, oy), _mm256_mul_ps(sy, depth)),
-                depth,
-            ]
-        };
+    fn shear(corner: &[Lanes; 3], ray: &ShearRay, out: &mut [Lanes; 3]) -> [__m256; 3] {
+        let axis = |i: usize| _mm256_sub_ps(load(&corner[ray.axes[i] as usize]), _mm256_set1_ps(ray.origin[i]));
+        let depth = axis(2);
+        let slope = |i: usize| _mm256_mul_ps(_mm256_set1_ps(ray.slope[i]), depth);
+        let sheared = [_mm256_sub_ps(axis(0), slope(0)), _mm256_sub_ps(axis(1), slope(1)), depth];
+        *out =
+            [Lanes(bytemuck::cast(sheared[0])), Lanes(bytemuck::cast(sheared[1])), Lanes(bytemuck::cast(sheared[2]))];
+        sheared
+    }
+
+    #[inline]
+    #[target_feature(enable = "avx2,bmi1")]
+    fn triangles(block: &Block, ray: &ShearRay, [near, far]: [f32; 2], sheared: &mut Sheared) -> u32 {
         let [a, b, c] = &block.corners;
-        let (a, b, c) = (shear(a), shear(b), shear(c));
-        let sheared = [a, b, c].map(|corner| corner.map(|axis| Lanes(bytemuck::cast(axis))));
+        let [out_a, out_b, out_c] = sheared;
+        let (a, b, c) = (shear(a, ray, out_a), shear(b, ray, out_b), shear(c, ray, out_c));
 
         let sign = _mm256_set1_ps(-0.0);
         let down = if ray.major < 0.0 { sign } else { _mm256_setzero_ps() };
-        let [za, zb, zc] = [a, b, c].map(|corner| _mm256_xor_ps(corner[2], down));
+        let (za, zb, zc) = (_mm256_xor_ps(a[2], down), _mm256_xor_ps(b[2], down), _mm256_xor_ps(c[2], down));
         let deepest = _mm256_max_ps(_mm256_max_ps(za, zb), zc);
         let nearest = _mm256_min_ps(_mm256_min_ps(za, zb), zc);
         let beside = _mm256_or_ps(
@@ -218,6 +218,6 @@ mod avx2 {
         let above = _mm256_or_ps(_mm256_or_ps(u.0, v.0), w.0);
         let below = _mm256_or_ps(_mm256_or_ps(u.1, v.1), w.1);
         let out = _mm256_movemask_ps(_mm256_or_ps(_mm256_and_ps(above, below), beside)) as u32;
-        (!out & 0xff, sheared)
+        !out & 0xff
     }
 }

@@ -32,8 +32,11 @@ pub const BACK_FACE: u8 = 255;
 ///
 /// Watertight within a GAS: see `triangle.rs`. Between instances nothing is promised, as in OptiX, because each has a
 /// ray of its own.
-#[inline]
-pub fn trace<'a, P: Programs>(accel: Option<&'a Accel>, ray: &RayQuery, programs: &mut P) -> Option<Hit<'a>> {
+///
+/// It is compiled once, here, and calls the programs through a table, so that it is as fast from other crates as it is from this
+/// one, with link-time optimisation or without.
+#[inline(never)]
+pub fn trace<'a>(accel: Option<&'a Accel>, ray: &RayQuery, programs: &mut dyn Programs) -> Option<Hit<'a>> {
     #[cfg(target_arch = "x86_64")]
     if let Some(simd) = Avx2::detect() {
         return trace_with(simd, accel, ray, programs);
@@ -41,13 +44,18 @@ pub fn trace<'a, P: Programs>(accel: Option<&'a Accel>, ray: &RayQuery, programs
     trace_with(Portable, accel, ray, programs)
 }
 
-/// [`trace`] with a given instruction set.
-#[inline]
-pub fn trace_with<'a, S: Simd, P: Programs>(
+/// [`trace`] as it is on a machine without AVX2, to compare the two: hits are the same, bit for bit.
+#[inline(never)]
+pub fn trace_portable<'a>(accel: Option<&'a Accel>, ray: &RayQuery, programs: &mut dyn Programs) -> Option<Hit<'a>> {
+    trace_with(Portable, accel, ray, programs)
+}
+
+#[inline(always)]
+fn trace_with<'a, S: Simd>(
     simd: S,
     accel: Option<&'a Accel>,
     ray: &RayQuery,
-    programs: &mut P,
+    programs: &mut dyn Programs,
 ) -> Option<Hit<'a>> {
     let accel = accel?;
     if ray.tmin.is_nan() || ray.tmax.is_nan() || ray.tmin.max(0.0) > ray.tmax {
@@ -57,13 +65,13 @@ pub fn trace_with<'a, S: Simd, P: Programs>(
 }
 
 /// A trace, from preparing the ray to the hit.
-struct AtRoot<'t, 'a, P> {
+struct AtRoot<'t, 'a> {
     accel: &'a Accel,
     query: &'t RayQuery,
-    programs: &'t mut P,
+    programs: &'t mut dyn Programs,
 }
 
-impl<'a, P: Programs> Task for AtRoot<'_, 'a, P> {
+impl<'a> Task for AtRoot<'_, 'a> {
     type Output = Option<Hit<'a>>;
 
     #[inline(always)]
@@ -126,17 +134,17 @@ struct Place<'s> {
 }
 
 /// Traversal of a geometry acceleration structure.
-struct AtGas<'t, 'a, P> {
+struct AtGas<'t, 'a> {
     gas: &'a Gas,
     place: Place<'t>,
     state: &'t mut State<'a>,
     path: &'t InstancePath<'a>,
-    programs: &'t mut P,
+    programs: &'t mut dyn Programs,
     /// Whether differences of coordinates may overflow.
     far: bool,
 }
 
-impl<P: Programs> Task for AtGas<'_, '_, P> {
+impl Task for AtGas<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -166,7 +174,7 @@ impl<P: Programs> Task for AtGas<'_, '_, P> {
     }
 }
 
-impl<P: Programs> AtGas<'_, '_, P> {
+impl AtGas<'_, '_> {
     /// Tests all triangles of a structure without nodes.
     #[inline(always)]
     fn few<S: Simd>(&mut self, simd: S, blocks: &[Block], mut limit: f32) {
@@ -188,7 +196,8 @@ impl<P: Programs> AtGas<'_, '_, P> {
         if self.far {
             return self.far_block(simd, block, index, used, limit);
         }
-        let (met, sheared) = simd.triangles(block, &frame.shear, [frame.depth_min, limit]);
+        let mut sheared = Sheared::default();
+        let met = simd.triangles(block, &frame.shear, [frame.depth_min, limit], &mut sheared);
         let before = self.state.tmax;
         self.meet(&frame.shear, met & used, &sheared, block, index);
         self.state.limit(before, limit, frame)
@@ -200,7 +209,9 @@ impl<P: Programs> AtGas<'_, '_, P> {
     fn far_block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
         let frame = &self.place.space.frame;
         let shear = frame.shear.shrunk();
-        let (met, sheared) = simd.triangles(&block.shrunk(), &shear, [frame.depth_min * SHRINK, limit * SHRINK]);
+        let mut sheared = Sheared::default();
+        let depths = [frame.depth_min * SHRINK, limit * SHRINK];
+        let met = simd.triangles(&block.shrunk(), &shear, depths, &mut sheared);
         let before = self.state.tmax;
         self.meet(&shear, met & used, &sheared, block, index);
         self.state.limit(before, limit, frame)
@@ -285,15 +296,15 @@ impl<P: Programs> AtGas<'_, '_, P> {
 }
 
 /// Traversal of an instance acceleration structure.
-struct AtIas<'t, 'a, P> {
+struct AtIas<'t, 'a> {
     ias: &'a Ias,
     place: Place<'t>,
     state: &'t mut State<'a>,
     path: &'t mut InstancePath<'a>,
-    programs: &'t mut P,
+    programs: &'t mut dyn Programs,
 }
 
-impl<P: Programs> Task for AtIas<'_, '_, P> {
+impl Task for AtIas<'_, '_> {
     type Output = ();
 
     #[inline(always)]

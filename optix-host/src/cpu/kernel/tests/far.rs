@@ -68,7 +68,7 @@ fn rays(random: &mut Random, count: usize) -> Vec<RayQuery> {
 
 /// The nearest hit with each instruction set, which agree: primitive and `t`.
 fn nearest(accel: &Accel, ray: &RayQuery, mut programs: impl Programs) -> Option<(u32, f32)> {
-    let portable = trace_with(Portable, Some(accel), ray, &mut programs).map(|hit| (hit.primitive_index, hit.t));
+    let portable = trace_portable(Some(accel), ray, &mut programs).map(|hit| (hit.primitive_index, hit.t));
     assert_eq!(trace(Some(accel), ray, &mut programs).map(|hit| (hit.primitive_index, hit.t)), portable);
     portable
 }

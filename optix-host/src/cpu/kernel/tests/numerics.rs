@@ -6,8 +6,9 @@ use super::super::bvh::{Bvh, Lanes};
 use super::super::gas::SINGLE_LEAF;
 use super::super::ray::{Axis, BoxRay, Frame, ShearRay};
 use super::super::simd::Task;
-use super::super::triangle::{self, Block, TriangleHit, edge};
+use super::super::triangle::{self, Block, Sheared, TriangleHit, edge};
 use super::*;
+use crate::cpu::kernel::simd::Portable;
 
 /// A random float of either sign over the given binary exponents; now and then 0 or a neighbour of a power of two.
 fn float(random: &mut Random, low: i32, high: i32) -> f32 {
@@ -262,7 +263,7 @@ fn traversal_equals_brute_force() {
                 query.tmax = if i % 2 == 0 { t } else { f32::INFINITY };
             }
             let expected = brute_force(&vertices, &indices, &query);
-            let portable = trace_with(Portable, Some(&accel), &query, &mut Opaque);
+            let portable = trace_portable(Some(&accel), &query, &mut Opaque);
             let fastest = trace(Some(&accel), &query, &mut Opaque);
             let key = |hit: Option<Hit<'_>>| hit.map(|h| (h.t.to_bits(), h.primitive_index, h.hit_kind, h.attributes));
             assert_eq!(fastest.map(|h| (h.t, h.primitive_index)), expected, "kind {kind} {query:?}");
@@ -294,7 +295,8 @@ fn vector_kernels_are_bit_identical() {
                 (met, (0..8).filter(|i| met >> i & 1 != 0).map(|i| near.0[i].to_bits()).collect())
             });
             let depths = [self.frame.depth_min, self.limit];
-            let (met, sheared) = simd.triangles(self.block, &self.frame.shear, depths);
+            let mut sheared = Sheared::default();
+            let met = simd.triangles(self.block, &self.frame.shear, depths, &mut sheared);
             let corners = sheared.iter().flatten().flat_map(|axis| axis.0.map(f32::to_bits)).collect();
             (met, corners, boxes.collect())
         }
