@@ -3,6 +3,9 @@
 use optix_device_rs::host::MemoryError;
 use std::fmt;
 
+/// The result of host calls.
+pub type Result<T, E = Error> = core::result::Result<T, E>;
+
 /// An error of a host call.
 #[derive(thiserror::Error)]
 #[non_exhaustive]

@@ -15,17 +15,17 @@ mod error;
 pub mod optix;
 pub mod pipeline;
 mod plan;
-pub mod report;
 pub mod sbt;
 pub mod scene;
 
 pub use device::{BackendKind, Device, OptixOptions};
-pub use error::Error;
+pub use error::{Error, Result};
 pub use glam;
 #[cfg(feature = "cust")]
 #[cfg_attr(docsrs, doc(cfg(feature = "cust")))]
 pub use optix::cust;
 pub use optix_device_rs::host::{Buffer, Buffer2d, InstanceTable, MemoryError, TriangleTable, World};
+pub use optix_report as report;
 pub use pipeline::{Launch, Pipeline, PipelineBuilder};
 pub use scene::{Aabb, Accel, Boxes, Geometry, Instance, Material, Scene, TriangleMesh};
 
@@ -44,6 +44,3 @@ macro_rules! ptx {
         ))
     };
 }
-
-/// The result of host calls.
-pub type Result<T, E = Error> = core::result::Result<T, E>;

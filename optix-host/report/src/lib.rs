@@ -7,7 +7,7 @@
 //! [`Row`] for every power of two of the samples, fits the slope of error against samples, and writes a CSV.
 //!
 //! ```
-//! use optix_host::report::{ErrorCurve, Moments, pass_sizes};
+//! use optix_report::{ErrorCurve, Moments, pass_sizes};
 //!
 //! let (pixels, total) = (4, 16);
 //! let mut moments = Moments::new(pixels);
@@ -27,12 +27,13 @@
 //! assert_eq!(last.samples, 16);
 //! // Variance of 0, 1, 0, 1, ... is n / (4 (n - 1)); the mean of 16 has a standard error of sqrt(that / 16).
 //! assert!((last.estimated_rmse.unwrap() - (4.0 / 15.0_f64 / 16.0).sqrt()).abs() < 1e-12);
-//! # Ok::<(), optix_host::report::ReportError>(())
+//! # Ok::<(), optix_report::ReportError>(())
 //! ```
 //!
 //! What the numbers assume: samples of a pixel are independent and of one distribution. With samples stratified
 //! across passes the estimate is too large; with samples that share random numbers between pixels the estimate of a
 //! pixel holds, but [`Estimate::mean_error`] does not.
+#![warn(missing_docs)]
 
 mod curve;
 mod estimate;
@@ -44,7 +45,7 @@ pub use estimate::{Comparison, Estimate, Reference};
 pub use fit::PowerLaw;
 pub use moments::{Moments, Rejected};
 
-/// What can be wrong with the numbers handed to this module.
+/// What can be wrong with the numbers handed to this crate.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReportError {

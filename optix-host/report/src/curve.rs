@@ -167,7 +167,7 @@ fn slope(rows: &[Row]) -> Option<PowerLaw> {
 /// an [`ErrorCurve`] can have its rows: 1, 1, 2, 4, 8 and so on.
 ///
 /// ```
-/// # use optix_host::report::pass_sizes;
+/// # use optix_report::pass_sizes;
 /// assert!(pass_sizes(20, 64).eq([1, 1, 2, 4, 8, 4]));
 /// assert!(pass_sizes(20, 4).eq([1, 1, 2, 4, 4, 4, 4]));
 /// ```
