@@ -3,6 +3,7 @@
 //! `CONTRACTS=overwrite cargo test -p optix-macro-tests --test index` writes the page anew.
 
 mod device_functions;
+mod layers;
 mod traits;
 
 use std::collections::BTreeMap;
