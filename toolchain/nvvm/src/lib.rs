@@ -5,7 +5,7 @@
 //!
 //! | step | module |
 //! | --- | --- |
-//! | text to a model | `lexer`, `parse`, `model` |
+//! | text to a model | `lexer`, `parse`, `model`, `opcode` |
 //! | what LLVM 7 or libNVVM does not know to what it does | `lower` |
 //! | the model to text, in either dialect | `print` |
 //! | what can't be translated, and where it is | `refusal` |
@@ -17,6 +17,7 @@ mod lexer;
 mod library;
 mod lower;
 mod model;
+mod opcode;
 mod parse;
 mod print;
 mod refusal;

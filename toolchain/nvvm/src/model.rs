@@ -5,6 +5,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::opcode::{Atomic, Binary, Cast, Order, Predicate};
+
 /// A type. What LLVM has beyond these is refused by the parser.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Type {
@@ -112,16 +114,15 @@ impl Typed {
 /// A constant that is computed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Expression {
-    Cast { op: String, value: Typed, to: Type },
+    Cast { op: Cast, value: Typed, to: Type },
     Address { inbounds: bool, of: Type, base: Typed, indices: Vec<Typed> },
-    Binary { op: String, a: Typed, b: Typed },
+    Binary { op: Binary, a: Typed, b: Typed },
 }
 
 /// How memory is ordered around an atomic operation, and for whom.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Ordering {
-    /// `monotonic`, `acquire` and so on.
-    pub order: String,
+    pub order: Order,
     /// `syncscope("..")`; empty for the system.
     pub scope: String,
 }
@@ -164,11 +165,11 @@ impl Call {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Op {
-    Binary { op: String, flags: Vec<String>, a: Typed, b: Value },
+    Binary { op: Binary, flags: Vec<String>, a: Typed, b: Value },
     Negate { value: Typed },
     Freeze { value: Typed },
-    Cast { op: String, value: Typed, to: Type },
-    Compare { op: String, flags: Vec<String>, predicate: String, a: Typed, b: Value },
+    Cast { op: Cast, value: Typed, to: Type },
+    Compare { predicate: Predicate, flags: Vec<String>, a: Typed, b: Value },
     Select { condition: Typed, yes: Typed, no: Typed },
     Phi { ty: Type, incoming: Vec<(Value, String)> },
     Load { ty: Type, pointer: Typed, align: Option<u64>, volatile: bool, ordering: Option<Ordering> },
@@ -180,7 +181,7 @@ pub(super) enum Op {
     ExtractElement { vector: Typed, index: Typed },
     InsertElement { vector: Typed, value: Typed, index: Typed },
     Shuffle { a: Typed, b: Typed, mask: Typed },
-    ReadModifyWrite { op: String, pointer: Typed, value: Typed, ordering: Ordering },
+    ReadModifyWrite { op: Atomic, pointer: Typed, value: Typed, ordering: Ordering },
     CompareExchange { pointer: Typed, expected: Typed, new: Typed, ordering: Ordering },
     Fence(Ordering),
     Call(Call),

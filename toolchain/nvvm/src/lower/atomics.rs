@@ -5,6 +5,7 @@
 
 use super::builder::{Builder, constant};
 use crate::model::{Ordering, Type, Typed};
+use crate::opcode::{Atomic, Binary, Cast, IntPredicate, Order};
 use crate::refusal::Unknown;
 
 /// The way out for what the GPU has no instruction for.
@@ -17,7 +18,7 @@ pub(super) fn load(
     ordering: &Ordering,
 ) -> Result<Typed, Unknown> {
     let access = Access::of(ty, pointer, ordering)?;
-    let order = if matches!(ordering.order.as_str(), "acquire" | "seq_cst") { "acquire" } else { "relaxed" };
+    let order = if matches!(ordering.order, Order::Acquire | Order::SeqCst) { "acquire" } else { "relaxed" };
     let text = format!("{}ld.{order}.{}{}.{} $0, [$1];", access.fence, access.scope, access.space, access.ty);
     let constraints = format!("={},l", access.class);
     let result = builder.asm_memory(&text, &constraints, &access.register, &[pointer]);
@@ -31,7 +32,7 @@ pub(super) fn store(
     ordering: &Ordering,
 ) -> Result<(), Unknown> {
     let access = Access::of(&value.ty, pointer, ordering)?;
-    let order = if matches!(ordering.order.as_str(), "release" | "seq_cst") { "release" } else { "relaxed" };
+    let order = if matches!(ordering.order, Order::Release | Order::SeqCst) { "release" } else { "relaxed" };
     let value = access.widen(builder, value);
     let text = format!("{}st.{order}.{}{}.{} [$0], $1;", access.fence, access.scope, access.space, access.ty);
     builder.asm_memory(&text, &format!("l,{}", access.class), &Type::Void, &[pointer, &value]);
@@ -40,7 +41,7 @@ pub(super) fn store(
 
 pub(super) fn read_modify_write(
     builder: &mut Builder<'_>,
-    op: &str,
+    op: Atomic,
     pointer: &Typed,
     value: &Typed,
     ordering: &Ordering,
@@ -48,16 +49,16 @@ pub(super) fn read_modify_write(
     let access = Access::of(&value.ty, pointer, ordering)?;
     let bits = access.at_least_32(&value.ty)?;
     // There is no subtraction.
-    let operand = if op == "sub" { builder.binary("sub", &constant(&value.ty, 0), value) } else { value.clone() };
+    let operand =
+        if op == Atomic::Sub { builder.binary(Binary::Sub, &constant(&value.ty, 0), value) } else { value.clone() };
     let (op, ty) = match op {
-        "xchg" => ("exch", format!("b{bits}")),
-        "add" | "sub" => ("add", format!("u{bits}")),
-        "fadd" => ("add", format!("f{bits}")),
-        "and" | "or" | "xor" => (op, format!("b{bits}")),
-        "max" | "min" => (op, format!("s{bits}")),
-        "umax" => ("max", format!("u{bits}")),
-        "umin" => ("min", format!("u{bits}")),
-        _ => return Err(Unknown::new(format!("the atomic operation `{op}`")).hint(WIDER)),
+        Atomic::Xchg => ("exch", format!("b{bits}")),
+        Atomic::Add | Atomic::Sub => ("add", format!("u{bits}")),
+        Atomic::FAdd => ("add", format!("f{bits}")),
+        Atomic::And | Atomic::Or | Atomic::Xor => (op.word(), format!("b{bits}")),
+        Atomic::Max | Atomic::Min => (op.word(), format!("s{bits}")),
+        Atomic::UMax => ("max", format!("u{bits}")),
+        Atomic::UMin => ("min", format!("u{bits}")),
     };
     let text =
         format!("{}atom.{}.{}{}.{op}.{ty} $0, [$1], $2;", access.fence, access.order, access.scope, access.space);
@@ -83,7 +84,7 @@ pub(super) fn compare_exchange(
         format!("{}atom.{}.{}{}.cas.b{bits} $0, [$1], $2, $3;", access.fence, access.order, access.scope, access.space);
     let constraints = format!("={class},l,{class},{class}");
     let result = builder.asm_memory(&text, &constraints, &access.register, &[pointer, expected, new]);
-    let same = builder.compare("eq", &result, expected);
+    let same = builder.compare(IntPredicate::Eq, &result, expected);
     Ok(builder.pair(&result, &same))
 }
 
@@ -93,7 +94,7 @@ pub(super) fn fence(builder: &mut Builder<'_>, ordering: &Ordering) -> Result<()
         builder.asm_memory("", "", &Type::Void, &[]);
         return Ok(());
     }
-    let kind = if ordering.order == "seq_cst" { "sc" } else { "acq_rel" };
+    let kind = if ordering.order == Order::SeqCst { "sc" } else { "acq_rel" };
     builder.asm_memory(&format!("fence.{kind}.{};", scope(&ordering.scope)?), "", &Type::Void, &[]);
     Ok(())
 }
@@ -116,7 +117,7 @@ struct Access {
 impl Access {
     fn of(ty: &Type, pointer: &Typed, ordering: &Ordering) -> Result<Self, Unknown> {
         let scope = scope(&ordering.scope)?;
-        let sequential = ordering.order == "seq_cst";
+        let sequential = ordering.order == Order::SeqCst;
         let (class, register) = match ty {
             Type::Int(8 | 16) => ('h', Type::Int(16)),
             Type::Int(32) => ('r', Type::Int(32)),
@@ -129,11 +130,11 @@ impl Access {
         let bits = if *ty == Type::Int(8) { 8 } else { register.bits().unwrap_or(64) };
         Ok(Self {
             fence: if sequential { format!("fence.sc.{scope}; ") } else { String::new() },
-            order: match ordering.order.as_str() {
-                "acquire" => "acquire",
-                "release" => "release",
-                "acq_rel" | "seq_cst" => "acq_rel",
-                _ => "relaxed",
+            order: match ordering.order {
+                Order::Acquire => "acquire",
+                Order::Release => "release",
+                Order::AcqRel | Order::SeqCst => "acq_rel",
+                Order::Unordered | Order::Monotonic => "relaxed",
             },
             scope,
             space: match pointer.ty {
@@ -165,11 +166,11 @@ impl Access {
     }
 
     fn widen(&self, builder: &mut Builder<'_>, value: &Typed) -> Typed {
-        builder.cast("zext", value, &self.register)
+        builder.cast(Cast::ZExt, value, &self.register)
     }
 
     fn narrow(&self, builder: &mut Builder<'_>, value: Typed, ty: &Type) -> Typed {
-        builder.cast("trunc", &value, ty)
+        builder.cast(Cast::Trunc, &value, ty)
     }
 }
 

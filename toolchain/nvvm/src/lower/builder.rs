@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::{Called, Lowered};
 use crate::model::{Argument, Attributes, Call, Callee, Instruction, Op, Type, Typed, Value};
+use crate::opcode::{Binary, Cast, IntPredicate, Predicate};
 use crate::refusal::Unknown;
 
 /// The first character of names that are made here; no compiler writes it.
@@ -75,22 +76,19 @@ impl<'a> Builder<'a> {
         self.out.push(Instruction { result, op, metadata, line: self.line });
     }
 
-    pub fn binary(&mut self, op: &str, a: &Typed, b: &Typed) -> Typed {
+    pub fn binary(&mut self, op: Binary, a: &Typed, b: &Typed) -> Typed {
         let ty = a.ty.clone();
-        self.push(Op::Binary { op: op.into(), flags: Vec::new(), a: a.clone(), b: b.value.clone() }, ty)
+        self.push(Op::Binary { op, flags: Vec::new(), a: a.clone(), b: b.value.clone() }, ty)
     }
 
     /// `binary` with a constant integer.
-    pub fn with(&mut self, op: &str, a: &Typed, b: i128) -> Typed {
+    pub fn with(&mut self, op: Binary, a: &Typed, b: i128) -> Typed {
         self.binary(op, a, &constant(&a.ty, b))
     }
 
-    /// `icmp` or `fcmp`, by the operands.
-    pub fn compare(&mut self, predicate: &str, a: &Typed, b: &Typed) -> Typed {
-        let op = if a.ty.element().is_float() { "fcmp" } else { "icmp" };
+    pub fn compare(&mut self, predicate: impl Into<Predicate>, a: &Typed, b: &Typed) -> Typed {
         let ty = a.ty.with_element(Type::BOOL);
-        let (op, predicate) = (op.into(), predicate.into());
-        self.push(Op::Compare { op, flags: Vec::new(), predicate, a: a.clone(), b: b.value.clone() }, ty)
+        self.push(Op::Compare { predicate: predicate.into(), flags: Vec::new(), a: a.clone(), b: b.value.clone() }, ty)
     }
 
     pub fn select(&mut self, condition: &Typed, yes: &Typed, no: &Typed) -> Typed {
@@ -99,17 +97,17 @@ impl<'a> Builder<'a> {
     }
 
     /// `a` if the comparison holds, else `b`.
-    pub fn select_by(&mut self, predicate: &str, a: &Typed, b: &Typed) -> Typed {
+    pub fn select_by(&mut self, predicate: IntPredicate, a: &Typed, b: &Typed) -> Typed {
         let condition = self.compare(predicate, a, b);
         self.select(&condition, a, b)
     }
 
     /// A conversion; nothing if it has the type already.
-    pub fn cast(&mut self, op: &str, value: &Typed, to: &Type) -> Typed {
+    pub fn cast(&mut self, op: Cast, value: &Typed, to: &Type) -> Typed {
         if value.ty == *to {
             return value.clone();
         }
-        self.push(Op::Cast { op: op.into(), value: value.clone(), to: to.clone() }, to.clone())
+        self.push(Op::Cast { op, value: value.clone(), to: to.clone() }, to.clone())
     }
 
     pub fn extract(&mut self, vector: &Typed, index: u64) -> Typed {

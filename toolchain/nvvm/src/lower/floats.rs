@@ -3,6 +3,7 @@
 use super::builder::{Builder, constant, float};
 use super::libdevice;
 use crate::model::{Op, Type, Typed, Value};
+use crate::opcode::{Binary, Cast, FloatPredicate, IntPredicate};
 use crate::refusal::Unknown;
 
 /// Keeps libNVVM from what it fails at: it joins stores to a vector of eight halves, which it can't store, and has no conversion
@@ -11,11 +12,11 @@ pub(super) fn avoid_halves(builder: &mut Builder<'_>, op: &mut Op) {
     match op {
         // It joins no more than are known to be aligned.
         Op::Store { value, align: Some(align), .. } if value.ty == Type::Half => *align = (*align).min(8),
-        Op::Cast { op, value, to: Type::Int(65..) } if value.ty == Type::Half && op.starts_with("fpto") => {
+        Op::Cast { op: op @ (Cast::FPToUI | Cast::FPToSI), value, to: Type::Int(65..) } if value.ty == Type::Half => {
             // The greatest half is 65,504, and what does not fit is undefined.
-            let extend = if op == "fptosi" { "sext" } else { "zext" };
-            *value = builder.cast(op, value, &Type::Int(32));
-            *op = extend.into();
+            let extend = if *op == Cast::FPToSI { Cast::SExt } else { Cast::ZExt };
+            *value = builder.cast(*op, value, &Type::Int(32));
+            *op = extend;
         }
         _ => {}
     }
@@ -36,12 +37,12 @@ fn letter(ty: &Type) -> Result<char, Unknown> {
 pub(super) fn negate(builder: &mut Builder<'_>, value: &Typed) -> Result<Typed, Unknown> {
     if *value.ty.element() == Type::Half {
         let ty = value.ty.with_element(Type::Int(16));
-        let bits = builder.cast("bitcast", value, &ty);
-        let bits = builder.with("xor", &bits, -0x8000);
-        return Ok(builder.cast("bitcast", &bits, &value.ty));
+        let bits = builder.cast(Cast::Bitcast, value, &ty);
+        let bits = builder.with(Binary::Xor, &bits, -0x8000);
+        return Ok(builder.cast(Cast::Bitcast, &bits, &value.ty));
     }
     // What LLVM 7 understands as a negation.
-    Ok(builder.binary("fsub", &float(&value.ty, -0.0), value))
+    Ok(builder.binary(Binary::FSub, &float(&value.ty, -0.0), value))
 }
 
 /// `frem`, which LLVM 7 would compute by a rounded division.
@@ -68,9 +69,9 @@ fn elementwise(builder: &mut Builder<'_>, arguments: &[Typed], f: &Scalar<'_>) -
             Ok(result)
         }
         Type::Half => {
-            let wide: Vec<_> = arguments.iter().map(|value| builder.cast("fpext", value, &Type::Float)).collect();
+            let wide: Vec<_> = arguments.iter().map(|value| builder.cast(Cast::FPExt, value, &Type::Float)).collect();
             let result = f(builder, &wide)?;
-            Ok(builder.cast("fptrunc", &result, &ty))
+            Ok(builder.cast(Cast::FPTrunc, &result, &ty))
         }
         _ => f(builder, arguments),
     }
@@ -88,8 +89,8 @@ pub(super) fn function(builder: &mut Builder<'_>, name: &str, arguments: &[Typed
         ("round", 1) => round,
         ("maximum" | "minimum", 2) => with_nan,
         ("fmuladd", 3) => |builder: &mut Builder<'_>, _: &str, a: &[Typed]| {
-            let product = builder.binary("fmul", &a[0], &a[1]);
-            Ok(builder.binary("fadd", &product, &a[2]))
+            let product = builder.binary(Binary::FMul, &a[0], &a[1]);
+            Ok(builder.binary(Binary::FAdd, &product, &a[2]))
         },
         ("canonicalize", 1) => |builder: &mut Builder<'_>, _: &str, a: &[Typed]| {
             let name = format!("llvm.nvvm.mul.rn.{}", letter(&a[0].ty)?);
@@ -135,14 +136,14 @@ fn round(builder: &mut Builder<'_>, _: &str, arguments: &[Typed]) -> Result<Type
 fn with_nan(builder: &mut Builder<'_>, name: &str, arguments: &[Typed]) -> Result<Typed, Unknown> {
     let (a, b) = (&arguments[0], &arguments[1]);
     let number = of_nvvm(builder, if name == "maximum" { "maxnum" } else { "minnum" }, arguments)?;
-    let unordered = builder.compare("uno", a, b);
-    let nan = builder.binary("fadd", a, b);
+    let unordered = builder.compare(FloatPredicate::Uno, a, b);
+    let nan = builder.binary(Binary::FAdd, a, b);
     Ok(builder.select(&unordered, &nan, &number))
 }
 
 /// A float to the nearest integer towards zero that the type has; NaN to 0.
 pub(super) fn to_integer(builder: &mut Builder<'_>, signed: bool, value: &Typed, to: &Type) -> Result<Typed, Unknown> {
-    let value = &if value.ty == Type::Half { builder.cast("fpext", value, &Type::Float) } else { value.clone() };
+    let value = &if value.ty == Type::Half { builder.cast(Cast::FPExt, value, &Type::Float) } else { value.clone() };
     let letter = letter(&value.ty)?;
     let bits = match to {
         Type::Int(bits @ 1..=64) => *bits,
@@ -155,17 +156,21 @@ pub(super) fn to_integer(builder: &mut Builder<'_>, signed: bool, value: &Typed,
     let mut result = builder.pure(&name, &ty, &[value])?;
     if letter == 'd' || wide == 64 {
         // Only from `float` to 32 bits does it give 0 for NaN.
-        let nan = builder.compare("uno", value, value);
+        let nan = builder.compare(FloatPredicate::Uno, value, value);
         result = builder.select(&nan, &constant(&ty, 0), &result);
     }
     if bits < wide {
         let limits = if signed { (-(1_i128 << (bits - 1)), (1 << (bits - 1)) - 1) } else { (0, (1 << bits) - 1) };
         if signed {
-            result = builder.select_by("sgt", &result, &constant(&ty, limits.0));
+            result = builder.select_by(IntPredicate::Sgt, &result, &constant(&ty, limits.0));
         }
-        result = builder.select_by(if signed { "slt" } else { "ult" }, &result, &constant(&ty, limits.1));
+        result = builder.select_by(
+            if signed { IntPredicate::Slt } else { IntPredicate::Ult },
+            &result,
+            &constant(&ty, limits.1),
+        );
     }
-    Ok(builder.cast("trunc", &result, to))
+    Ok(builder.cast(Cast::Trunc, &result, to))
 }
 
 /// Whether a float is of one of the classes in the mask, as LLVM numbers them.
@@ -180,25 +185,25 @@ pub(super) fn is_class(builder: &mut Builder<'_>, value: &Typed, mask: u32) -> R
     let number = |value: i128| constant(&ty, value);
     let infinity = ((1_i128 << (bits - 1 - mantissa)) - 1) << mantissa;
     let least_normal = 1_i128 << mantissa;
-    let word = builder.cast("bitcast", value, &ty);
-    let magnitude = builder.with("and", &word, (1 << (bits - 1)) - 1);
-    let negative = builder.compare("slt", &word, &number(0));
+    let word = builder.cast(Cast::Bitcast, value, &ty);
+    let magnitude = builder.with(Binary::And, &word, (1 << (bits - 1)) - 1);
+    let negative = builder.compare(IntPredicate::Slt, &word, &number(0));
 
     let mut is = Typed::int(1, 0);
     // Signalling NaNs have a zero in the first bit of the mantissa.
     if mask & 3 == 3 {
-        let nan = builder.compare("ugt", &magnitude, &number(infinity));
-        is = builder.binary("or", &is, &nan);
+        let nan = builder.compare(IntPredicate::Ugt, &magnitude, &number(infinity));
+        is = builder.binary(Binary::Or, &is, &nan);
     } else if mask & 3 != 0 {
         let quiet = infinity | (least_normal >> 1);
         let nan = if mask & 3 == 2 {
-            builder.compare("uge", &magnitude, &number(quiet))
+            builder.compare(IntPredicate::Uge, &magnitude, &number(quiet))
         } else {
-            let above = builder.compare("ugt", &magnitude, &number(infinity));
-            let below = builder.compare("ult", &magnitude, &number(quiet));
-            builder.binary("and", &above, &below)
+            let above = builder.compare(IntPredicate::Ugt, &magnitude, &number(infinity));
+            let below = builder.compare(IntPredicate::Ult, &magnitude, &number(quiet));
+            builder.binary(Binary::And, &above, &below)
         };
-        is = builder.binary("or", &is, &nan);
+        is = builder.binary(Binary::Or, &is, &nan);
     }
     // The bit of the class with a minus, and of that with a plus; the magnitudes from the first to before the last.
     let classes =
@@ -208,13 +213,13 @@ pub(super) fn is_class(builder: &mut Builder<'_>, value: &Typed, mask: u32) -> R
         if !minus && !plus {
             continue;
         }
-        let above = builder.with("sub", &magnitude, first);
-        let mut inside = builder.compare("ult", &above, &number(end - first));
+        let above = builder.with(Binary::Sub, &magnitude, first);
+        let mut inside = builder.compare(IntPredicate::Ult, &above, &number(end - first));
         if minus != plus {
-            let sign = if minus { negative.clone() } else { builder.with("xor", &negative, 1) };
-            inside = builder.binary("and", &inside, &sign);
+            let sign = if minus { negative.clone() } else { builder.with(Binary::Xor, &negative, 1) };
+            inside = builder.binary(Binary::And, &inside, &sign);
         }
-        is = builder.binary("or", &is, &inside);
+        is = builder.binary(Binary::Or, &is, &inside);
     }
     Ok(is)
 }

@@ -7,6 +7,7 @@ use std::collections::HashSet;
 
 use super::builder::Builder;
 use crate::model::{Callee, Function, Instruction, Op, Type, Typed, Value};
+use crate::opcode::{Binary, Cast};
 use crate::refusal::Unknown;
 
 pub(super) fn lower(builder: &mut Builder<'_>, value: &Typed) -> Result<Typed, Unknown> {
@@ -33,37 +34,37 @@ fn scalar(builder: &mut Builder<'_>, value: &Typed) -> Result<Typed, Unknown> {
     };
     match value.ty {
         Type::Int(bits) if bits < 32 => {
-            let wide = builder.cast("zext", value, &Type::Int(32));
+            let wide = builder.cast(Cast::ZExt, value, &Type::Int(32));
             let wide = moved(builder, &wide)?;
-            Ok(builder.cast("trunc", &wide, &value.ty))
+            Ok(builder.cast(Cast::Trunc, &wide, &value.ty))
         }
         Type::Int(bits @ 33..64) => {
-            let wide = builder.cast("zext", value, &Type::Int(64));
+            let wide = builder.cast(Cast::ZExt, value, &Type::Int(64));
             let wide = moved(builder, &wide)?;
-            Ok(builder.cast("trunc", &wide, &Type::Int(bits)))
+            Ok(builder.cast(Cast::Trunc, &wide, &Type::Int(bits)))
         }
         Type::Int(128) => {
             let half = Type::Int(64);
-            let low = builder.cast("trunc", value, &half);
+            let low = builder.cast(Cast::Trunc, value, &half);
             let low = moved(builder, &low)?;
-            let high = builder.with("lshr", value, 64);
-            let high = builder.cast("trunc", &high, &half);
+            let high = builder.with(Binary::LShr, value, 64);
+            let high = builder.cast(Cast::Trunc, &high, &half);
             let high = moved(builder, &high)?;
-            let low = builder.cast("zext", &low, &value.ty);
-            let high = builder.cast("zext", &high, &value.ty);
-            let high = builder.with("shl", &high, 64);
-            Ok(builder.binary("or", &high, &low))
+            let low = builder.cast(Cast::ZExt, &low, &value.ty);
+            let high = builder.cast(Cast::ZExt, &high, &value.ty);
+            let high = builder.with(Binary::Shl, &high, 64);
+            Ok(builder.binary(Binary::Or, &high, &low))
         }
         Type::Half => {
-            let bits = builder.cast("bitcast", value, &Type::Int(16));
+            let bits = builder.cast(Cast::Bitcast, value, &Type::Int(16));
             let bits = scalar(builder, &bits)?;
-            Ok(builder.cast("bitcast", &bits, &Type::Half))
+            Ok(builder.cast(Cast::Bitcast, &bits, &Type::Half))
         }
         Type::Float | Type::Double => {
             let bits = Type::Int(value.ty.bits().unwrap_or(64));
-            let frozen = builder.cast("bitcast", value, &bits);
+            let frozen = builder.cast(Cast::Bitcast, value, &bits);
             let frozen = moved(builder, &frozen)?;
-            Ok(builder.cast("bitcast", &frozen, &value.ty))
+            Ok(builder.cast(Cast::Bitcast, &frozen, &value.ty))
         }
         _ => moved(builder, value),
     }
@@ -107,18 +108,27 @@ fn gives_defined(instruction: &Instruction, defined: &HashSet<String>) -> bool {
         Op::Load { .. } => instruction.metadata.iter().any(|(name, _)| name == "noundef"),
         Op::Binary { op, flags, a, b } if flags.is_empty() => {
             let operands = is(&a.value) && is(b);
-            match op.as_str() {
-                "shl" | "lshr" | "ashr" => {
+            match op {
+                Binary::Shl | Binary::LShr | Binary::AShr => {
                     let bits = a.ty.bits().unwrap_or(0);
                     operands && b.as_int().is_some_and(|amount| (0..i128::from(bits)).contains(&amount))
                 }
-                op => operands && !op.ends_with("div") && !op.ends_with("rem"),
+                Binary::UDiv | Binary::SDiv | Binary::URem | Binary::SRem | Binary::FDiv | Binary::FRem => false,
+                Binary::Add
+                | Binary::Sub
+                | Binary::Mul
+                | Binary::And
+                | Binary::Or
+                | Binary::Xor
+                | Binary::FAdd
+                | Binary::FSub
+                | Binary::FMul => operands,
             }
         }
         Op::Compare { flags, a, b, .. } if flags.is_empty() => is(&a.value) && is(b),
         Op::Negate { value } => is(&value.value),
         // The value of what does not fit an integer is undefined.
-        Op::Cast { op, value, .. } => !matches!(op.as_str(), "fptoui" | "fptosi") && is(&value.value),
+        Op::Cast { op, value, .. } => !matches!(op, Cast::FPToUI | Cast::FPToSI) && is(&value.value),
         Op::Select { condition, yes, no } => [condition, yes, no].iter().all(|operand| is(&operand.value)),
         Op::Phi { incoming, .. } => incoming.iter().all(|(value, _)| is(value)),
         Op::ExtractValue { aggregate, .. } => is(&aggregate.value),

@@ -2,6 +2,7 @@
 
 use super::builder::{Builder, constant};
 use crate::model::{Type, Typed};
+use crate::opcode::{Binary, Cast, IntPredicate};
 use crate::refusal::Unknown;
 
 /// The way out for arithmetic of more than 64 bits.
@@ -20,21 +21,22 @@ fn signed_max(bits: u32) -> i128 {
 }
 
 /// `umin`, `smax` and the like; `predicate` holds between the first operand and the second if the first is the result.
-pub(super) fn least(builder: &mut Builder<'_>, predicate: &str, a: &Typed, b: &Typed) -> Typed {
+pub(super) fn least(builder: &mut Builder<'_>, predicate: IntPredicate, a: &Typed, b: &Typed) -> Typed {
     builder.select_by(predicate, a, b)
 }
 
 /// `abs`; that of the smallest integer is itself.
 pub(super) fn abs(builder: &mut Builder<'_>, a: &Typed) -> Typed {
     let zero = constant(&a.ty, 0);
-    let negated = builder.binary("sub", &zero, a);
-    let negative = builder.compare("slt", a, &zero);
+    let negated = builder.binary(Binary::Sub, &zero, a);
+    let negative = builder.compare(IntPredicate::Slt, a, &zero);
     builder.select(&negative, &negated, a)
 }
 
 /// `ucmp` and `scmp`: -1, 0 or 1 of the type `to`.
 pub(super) fn three_way(builder: &mut Builder<'_>, signed: bool, a: &Typed, b: &Typed, to: &Type) -> Typed {
-    let (less, greater) = if signed { ("slt", "sgt") } else { ("ult", "ugt") };
+    let (less, greater) =
+        if signed { (IntPredicate::Slt, IntPredicate::Sgt) } else { (IntPredicate::Ult, IntPredicate::Ugt) };
     let less = builder.compare(less, a, b);
     let less = builder.select(&less, &constant(to, -1), &constant(to, 0));
     let greater = builder.compare(greater, a, b);
@@ -50,7 +52,7 @@ pub(super) fn funnel(
     amount: &Typed,
 ) -> Result<Typed, Unknown> {
     let bits = bits(high)?;
-    let (there, back) = if left { ("shl", "lshr") } else { ("lshr", "shl") };
+    let (there, back) = if left { (Binary::Shl, Binary::LShr) } else { (Binary::LShr, Binary::Shl) };
     let (near, far) = if left { (high, low) } else { (low, high) };
     if let Some(amount) = amount.value.as_int() {
         let amount = amount.rem_euclid(i128::from(bits));
@@ -59,7 +61,7 @@ pub(super) fn funnel(
         }
         let near = builder.with(there, near, amount);
         let far = builder.with(back, far, i128::from(bits) - amount);
-        return Ok(builder.binary("or", &near, &far));
+        return Ok(builder.binary(Binary::Or, &near, &far));
     }
     if bits == 32 {
         // One instruction, which takes the amount modulo 32.
@@ -68,16 +70,16 @@ pub(super) fn funnel(
     }
     let most = i128::from(bits) - 1;
     let amount = if bits.is_power_of_two() {
-        builder.with("and", amount, most)
+        builder.with(Binary::And, amount, most)
     } else {
-        builder.with("urem", amount, i128::from(bits))
+        builder.with(Binary::URem, amount, i128::from(bits))
     };
     // A shift by all of the bits is undefined: the far half goes by one first.
-    let rest = builder.binary("sub", &constant(&amount.ty, most), &amount);
+    let rest = builder.binary(Binary::Sub, &constant(&amount.ty, most), &amount);
     let near = builder.binary(there, near, &amount);
     let far = builder.with(back, far, 1);
     let far = builder.binary(back, &far, &rest);
-    Ok(builder.binary("or", &near, &far))
+    Ok(builder.binary(Binary::Or, &near, &far))
 }
 
 /// The result of an operation, and whether it went out of range.
@@ -87,17 +89,21 @@ pub(super) struct Overflowing {
 }
 
 /// Addition and subtraction.
-pub(super) fn overflowing(builder: &mut Builder<'_>, signed: bool, op: &str, a: &Typed, b: &Typed) -> Overflowing {
+pub(super) fn overflowing(builder: &mut Builder<'_>, signed: bool, op: Binary, a: &Typed, b: &Typed) -> Overflowing {
     let result = builder.binary(op, a, b);
     let out = match (signed, op) {
-        (false, "add") => builder.compare("ult", &result, a),
-        (false, _) => builder.compare("ult", a, b),
+        (false, Binary::Add) => builder.compare(IntPredicate::Ult, &result, a),
+        (false, _) => builder.compare(IntPredicate::Ult, a, b),
         (true, _) => {
             // Out of range: the operands' signs allow it, and the result's differs from the first one's.
-            let one = builder.binary("xor", a, &result);
-            let other = if op == "add" { builder.binary("xor", b, &result) } else { builder.binary("xor", a, b) };
-            let both = builder.binary("and", &one, &other);
-            builder.compare("slt", &both, &constant(&a.ty, 0))
+            let one = builder.binary(Binary::Xor, a, &result);
+            let other = if op == Binary::Add {
+                builder.binary(Binary::Xor, b, &result)
+            } else {
+                builder.binary(Binary::Xor, a, b)
+            };
+            let both = builder.binary(Binary::And, &one, &other);
+            builder.compare(IntPredicate::Slt, &both, &constant(&a.ty, 0))
         }
     };
     Overflowing { result, out }
@@ -107,12 +113,12 @@ pub(super) fn overflowing(builder: &mut Builder<'_>, signed: bool, op: &str, a: 
 pub(super) fn with_overflow(
     builder: &mut Builder<'_>,
     signed: bool,
-    op: &str,
+    op: Binary,
     a: &Typed,
     b: &Typed,
 ) -> Result<Typed, Unknown> {
     let overflowing = match (op, bits(a)?) {
-        ("add" | "sub", _) => overflowing(builder, signed, op, a, b),
+        (Binary::Add | Binary::Sub, _) => overflowing(builder, signed, op, a, b),
         (_, bits @ (16 | 32 | 64)) => {
             let name = format!("llvm.{}mul.with.overflow.i{bits}", if signed { 's' } else { 'u' });
             let pair = Type::Struct { fields: vec![a.ty.clone(), Type::BOOL], packed: false };
@@ -120,12 +126,12 @@ pub(super) fn with_overflow(
         }
         (_, bits) if bits <= 32 => {
             let wide = Type::Int(64);
-            let extend = if signed { "sext" } else { "zext" };
+            let extend = if signed { Cast::SExt } else { Cast::ZExt };
             let (wide_a, wide_b) = (builder.cast(extend, a, &wide), builder.cast(extend, b, &wide));
-            let product = builder.binary("mul", &wide_a, &wide_b);
-            let result = builder.cast("trunc", &product, &a.ty);
+            let product = builder.binary(Binary::Mul, &wide_a, &wide_b);
+            let result = builder.cast(Cast::Trunc, &product, &a.ty);
             let again = builder.cast(extend, &result, &wide);
-            Overflowing { result, out: builder.compare("ne", &product, &again) }
+            Overflowing { result, out: builder.compare(IntPredicate::Ne, &product, &again) }
         }
         (_, 128) => checked_product(builder, signed, a, b),
         (_, bits) => {
@@ -137,21 +143,21 @@ pub(super) fn with_overflow(
 
 /// A product that fits if dividing it by one factor gives the other.
 fn checked_product(builder: &mut Builder<'_>, signed: bool, a: &Typed, b: &Typed) -> Overflowing {
-    let result = builder.binary("mul", a, b);
+    let result = builder.binary(Binary::Mul, a, b);
     let (zero, one, minus_one) = (constant(&a.ty, 0), constant(&a.ty, 1), constant(&a.ty, -1));
-    let by_zero = builder.compare("eq", a, &zero);
+    let by_zero = builder.compare(IntPredicate::Eq, a, &zero);
     let mut divisor = builder.select(&by_zero, &one, a);
-    let negates = builder.compare("eq", a, &minus_one);
+    let negates = builder.compare(IntPredicate::Eq, a, &minus_one);
     if signed {
         // The least number divided by -1 has no quotient, and by -1 no other product overflows.
         divisor = builder.select(&negates, &one, &divisor);
     }
-    let quotient = builder.binary(if signed { "sdiv" } else { "udiv" }, &result, &divisor);
-    let differs = builder.compare("ne", &quotient, b);
-    let not_zero = builder.compare("ne", a, &zero);
-    let mut out = builder.binary("and", &differs, &not_zero);
+    let quotient = builder.binary(if signed { Binary::SDiv } else { Binary::UDiv }, &result, &divisor);
+    let differs = builder.compare(IntPredicate::Ne, &quotient, b);
+    let not_zero = builder.compare(IntPredicate::Ne, a, &zero);
+    let mut out = builder.binary(Binary::And, &differs, &not_zero);
     if signed {
-        let least = builder.compare("eq", b, &constant(&a.ty, i128::MIN));
+        let least = builder.compare(IntPredicate::Eq, b, &constant(&a.ty, i128::MIN));
         out = builder.select(&negates, &least, &out);
     }
     Overflowing { result, out }
@@ -161,15 +167,15 @@ fn checked_product(builder: &mut Builder<'_>, signed: bool, a: &Typed, b: &Typed
 pub(super) fn saturating(
     builder: &mut Builder<'_>,
     signed: bool,
-    op: &str,
+    op: Binary,
     a: &Typed,
     b: &Typed,
 ) -> Result<Typed, Unknown> {
     let bits = bits(a)?;
-    let (result, out) = if op == "shl" {
-        let result = builder.binary("shl", a, b);
-        let back = builder.binary(if signed { "ashr" } else { "lshr" }, &result, b);
-        let out = builder.compare("ne", &back, a);
+    let (result, out) = if op == Binary::Shl {
+        let result = builder.binary(Binary::Shl, a, b);
+        let back = builder.binary(if signed { Binary::AShr } else { Binary::LShr }, &result, b);
+        let out = builder.compare(IntPredicate::Ne, &back, a);
         (result, out)
     } else {
         let Overflowing { result, out } = overflowing(builder, signed, op, a, b);
@@ -177,10 +183,10 @@ pub(super) fn saturating(
     };
     let limit = if signed {
         // The limit is on the side of the first operand: 0 or -1, with all bits but the sign turned.
-        let sign = builder.with("ashr", a, i128::from(bits) - 1);
-        builder.with("xor", &sign, signed_max(bits))
+        let sign = builder.with(Binary::AShr, a, i128::from(bits) - 1);
+        builder.with(Binary::Xor, &sign, signed_max(bits))
     } else {
-        constant(&a.ty, if op == "sub" { 0 } else { -1 })
+        constant(&a.ty, if op == Binary::Sub { 0 } else { -1 })
     };
     Ok(builder.select(&out, &limit, &result))
 }
@@ -199,41 +205,41 @@ pub(super) fn bit_operation(builder: &mut Builder<'_>, op: &str, a: &Typed) -> R
         }
         128 => {
             let half = Type::Int(64);
-            let low = builder.cast("trunc", a, &half);
-            let high = builder.with("lshr", a, 64);
-            let high = builder.cast("trunc", &high, &half);
+            let low = builder.cast(Cast::Trunc, a, &half);
+            let high = builder.with(Binary::LShr, a, 64);
+            let high = builder.cast(Cast::Trunc, &high, &half);
             let of_low = bit_operation(builder, op, &low)?;
             let of_high = bit_operation(builder, op, &high)?;
-            let wide_low = builder.cast("zext", &of_low, &a.ty);
-            let wide_high = builder.cast("zext", &of_high, &a.ty);
+            let wide_low = builder.cast(Cast::ZExt, &of_low, &a.ty);
+            let wide_high = builder.cast(Cast::ZExt, &of_high, &a.ty);
             Ok(match op {
-                "ctpop" => builder.binary("add", &wide_low, &wide_high),
+                "ctpop" => builder.binary(Binary::Add, &wide_low, &wide_high),
                 "ctlz" | "cttz" => {
                     let (first, of_first, of_second) =
                         if op == "ctlz" { (high, wide_high, wide_low) } else { (low, wide_low, wide_high) };
-                    let second = builder.with("add", &of_second, 64);
-                    let empty = builder.compare("eq", &first, &constant(&half, 0));
+                    let second = builder.with(Binary::Add, &of_second, 64);
+                    let empty = builder.compare(IntPredicate::Eq, &first, &constant(&half, 0));
                     builder.select(&empty, &second, &of_first)
                 }
                 _ => {
-                    let high = builder.with("shl", &wide_low, 64);
-                    builder.binary("or", &high, &wide_high)
+                    let high = builder.with(Binary::Shl, &wide_low, 64);
+                    builder.binary(Binary::Or, &high, &wide_high)
                 }
             })
         }
         // Another width: as a part of the next known one.
         bits if bits < 64 && matches!(op, "ctpop" | "ctlz" | "cttz") => {
-            let wide = builder.cast("zext", a, &Type::Int(64));
+            let wide = builder.cast(Cast::ZExt, a, &Type::Int(64));
             let wide = match op {
                 "ctlz" => {
-                    let top = builder.with("shl", &wide, i128::from(64 - bits));
-                    builder.with("or", &top, (1 << (64 - bits)) >> 1)
+                    let top = builder.with(Binary::Shl, &wide, i128::from(64 - bits));
+                    builder.with(Binary::Or, &top, (1 << (64 - bits)) >> 1)
                 }
-                "cttz" => builder.with("or", &wide, 1 << bits),
+                "cttz" => builder.with(Binary::Or, &wide, 1 << bits),
                 _ => wide,
             };
             let count = bit_operation(builder, op, &wide)?;
-            Ok(builder.cast("trunc", &count, &a.ty))
+            Ok(builder.cast(Cast::Trunc, &count, &a.ty))
         }
         bits => Err(Unknown::new(format!("`{op}` of {bits} bits")).hint(NARROWER)),
     }

@@ -5,6 +5,7 @@
 use super::builder::{Builder, argument};
 use super::{Lowered, floats, integers, libdevice, reduce};
 use crate::model::{Argument, Call, Type, Typed, Value};
+use crate::opcode::{Binary, Cast, IntPredicate};
 use crate::refusal::Unknown;
 
 /// What only tells the optimiser or a debugger something, and has no result.
@@ -45,9 +46,9 @@ pub(super) fn lower(builder: &mut Builder<'_>, call: &Call, name: &str) -> Lower
             Ok(None)
         }
         ("ptrmask", [pointer, mask]) => {
-            let address = builder.cast("ptrtoint", pointer, &mask.ty);
-            let address = builder.binary("and", &address, mask);
-            Ok(Some(builder.cast("inttoptr", &address, &pointer.ty)))
+            let address = builder.cast(Cast::PtrToInt, pointer, &mask.ty);
+            let address = builder.binary(Binary::And, &address, mask);
+            Ok(Some(builder.cast(Cast::IntToPtr, &address, &pointer.ty)))
         }
         (base, arguments) => {
             if let Some(op) = base.strip_prefix("vector.reduce.") {
@@ -123,10 +124,10 @@ fn elementwise(builder: &mut Builder<'_>, base: &str, arguments: &[Typed], resul
 fn scalar(builder: &mut Builder<'_>, base: &str, arguments: &[Typed], result: &Type) -> Result<Typed, Unknown> {
     let unknown = || Err(Unknown::new(format!("the intrinsic `llvm.{base}`")));
     match (base, arguments) {
-        ("smax", [a, b]) => Ok(integers::least(builder, "sgt", a, b)),
-        ("smin", [a, b]) => Ok(integers::least(builder, "slt", a, b)),
-        ("umax", [a, b]) => Ok(integers::least(builder, "ugt", a, b)),
-        ("umin", [a, b]) => Ok(integers::least(builder, "ult", a, b)),
+        ("smax", [a, b]) => Ok(integers::least(builder, IntPredicate::Sgt, a, b)),
+        ("smin", [a, b]) => Ok(integers::least(builder, IntPredicate::Slt, a, b)),
+        ("umax", [a, b]) => Ok(integers::least(builder, IntPredicate::Ugt, a, b)),
+        ("umin", [a, b]) => Ok(integers::least(builder, IntPredicate::Ult, a, b)),
         ("abs", [a, _]) => Ok(integers::abs(builder, a)),
         ("scmp" | "ucmp", [a, b]) => Ok(integers::three_way(builder, base == "scmp", a, b, result)),
         ("fshl" | "fshr", [high, low, amount]) => integers::funnel(builder, base == "fshl", high, low, amount),
@@ -154,13 +155,18 @@ fn scalar(builder: &mut Builder<'_>, base: &str, arguments: &[Typed], result: &T
         }
         (_, [a, b]) if base.ends_with(".with.overflow") || base.ends_with(".sat") => {
             let (what, kind) = base.split_once('.').unwrap_or((base, ""));
-            let (sign, op) = what.split_at(1);
-            if !matches!(sign, "s" | "u") || !matches!(op, "add" | "sub" | "mul" | "shl") {
-                return unknown();
-            }
-            match (kind, op) {
-                ("sat", "add" | "sub" | "shl") => integers::saturating(builder, sign == "s", op, a, b),
-                ("with.overflow", "add" | "sub" | "mul") => integers::with_overflow(builder, sign == "s", op, a, b),
+            let (signed, op) = match (what.strip_prefix('s'), what.strip_prefix('u')) {
+                (Some(op), _) => (true, op),
+                (_, Some(op)) => (false, op),
+                _ => return unknown(),
+            };
+            match (kind, Binary::of(op)) {
+                ("sat", Some(op @ (Binary::Add | Binary::Sub | Binary::Shl))) => {
+                    integers::saturating(builder, signed, op, a, b)
+                }
+                ("with.overflow", Some(op @ (Binary::Add | Binary::Sub | Binary::Mul))) => {
+                    integers::with_overflow(builder, signed, op, a, b)
+                }
                 _ => unknown(),
             }
         }

@@ -18,6 +18,7 @@ mod widths;
 use std::collections::{BTreeMap, HashSet};
 
 use super::model::{Argument, Function, Instruction, Module, Op, Type, Typed, Value};
+use super::opcode::Binary;
 use super::refusal::{Refusal, Unknown};
 use builder::Builder;
 pub(super) use builder::FRESH;
@@ -106,7 +107,7 @@ fn lower(builder: &mut Builder<'_>, mut instruction: Instruction) -> Result<(), 
     let value = match &instruction.op {
         Op::Freeze { value } => freeze::lower(builder, value).map(Some),
         Op::Negate { value } => floats::negate(builder, value).map(Some),
-        Op::Binary { op, a, b, .. } if op == "frem" => {
+        Op::Binary { op: Binary::FRem, a, b, .. } => {
             floats::remainder(builder, a, &Typed::new(a.ty.clone(), b.clone())).map(Some)
         }
         Op::Load { ty, pointer, ordering: Some(ordering), .. } => {
@@ -116,7 +117,7 @@ fn lower(builder: &mut Builder<'_>, mut instruction: Instruction) -> Result<(), 
             atomics::store(builder, value, pointer, ordering).map(|()| None)
         }
         Op::ReadModifyWrite { op, pointer, value, ordering } => {
-            atomics::read_modify_write(builder, op, pointer, value, ordering).map(Some)
+            atomics::read_modify_write(builder, *op, pointer, value, ordering).map(Some)
         }
         Op::CompareExchange { pointer, expected, new, ordering } => {
             atomics::compare_exchange(builder, pointer, expected, new, ordering).map(Some)

@@ -3,6 +3,7 @@
 use super::builder::Builder;
 use super::{floats, integers};
 use crate::model::{Type, Typed};
+use crate::opcode::{Binary, IntPredicate};
 use crate::refusal::Unknown;
 
 pub(super) fn lower(builder: &mut Builder<'_>, op: &str, arguments: &[Typed]) -> Result<Typed, Unknown> {
@@ -28,11 +29,10 @@ pub(super) fn lower(builder: &mut Builder<'_>, op: &str, arguments: &[Typed]) ->
 
 fn combine(builder: &mut Builder<'_>, op: &str, a: &Typed, b: &Typed) -> Result<Typed, Unknown> {
     let predicate = match op {
-        "add" | "mul" | "and" | "or" | "xor" | "fadd" | "fmul" => return Ok(builder.binary(op, a, b)),
-        "smax" => "sgt",
-        "smin" => "slt",
-        "umax" => "ugt",
-        "umin" => "ult",
+        "smax" => IntPredicate::Sgt,
+        "smin" => IntPredicate::Slt,
+        "umax" => IntPredicate::Ugt,
+        "umin" => IntPredicate::Ult,
         "fmax" | "fmin" | "fmaximum" | "fminimum" => {
             let name = match op {
                 "fmax" => "maxnum",
@@ -43,7 +43,20 @@ fn combine(builder: &mut Builder<'_>, op: &str, a: &Typed, b: &Typed) -> Result<
             let unknown = || Err(Unknown::new(format!("`vector.reduce.{op}`")));
             return floats::function(builder, name, &[a.clone(), b.clone()]).unwrap_or_else(unknown);
         }
-        _ => return Err(Unknown::new(format!("`vector.reduce.{op}`"))),
+        op => {
+            return match Binary::of(op) {
+                Some(
+                    op @ (Binary::Add
+                    | Binary::Mul
+                    | Binary::And
+                    | Binary::Or
+                    | Binary::Xor
+                    | Binary::FAdd
+                    | Binary::FMul),
+                ) => Ok(builder.binary(op, a, b)),
+                _ => Err(Unknown::new(format!("`vector.reduce.{op}`"))),
+            };
+        }
     };
     Ok(integers::least(builder, predicate, a, b))
 }

@@ -3,6 +3,7 @@
 
 use super::builder::FRESH;
 use crate::model::{Callee, Function, Instruction, Op, Type, Typed, Value};
+use crate::opcode::Cast;
 
 /// The type that stands for one that can't be passed.
 fn passed(ty: &Type) -> Option<Type> {
@@ -21,7 +22,7 @@ pub(super) fn widen(function: &mut Function) {
         if let Value::Local(name) = &mut parameter.value.value {
             let name = std::mem::replace(name, fresh.next().unwrap_or_default());
             let value = Typed::new(wide, parameter.value.value.clone());
-            narrowed.push(cast("trunc", value, narrow, name, function.line, &[]));
+            narrowed.push(cast(Cast::Trunc, value, narrow, name, function.line, &[]));
         }
     }
     let result = passed(&function.result);
@@ -37,7 +38,7 @@ pub(super) fn widen(function: &mut Function) {
             let mut extend = |value: &mut Typed, wide: Type, out: &mut Vec<Instruction>| {
                 let name = fresh.next().unwrap_or_default();
                 let narrow = std::mem::replace(value, Typed::new(wide.clone(), Value::Local(name.clone())));
-                out.push(cast("zext", narrow, wide, name, line, &metadata));
+                out.push(cast(Cast::ZExt, narrow, wide, name, line, &metadata));
             };
             let mut after = None;
             match &mut instruction.op {
@@ -58,7 +59,7 @@ pub(super) fn widen(function: &mut Function) {
                             let raw = fresh.next().unwrap_or_default();
                             instruction.result = Some(raw.clone());
                             let value = Typed::new(wide, Value::Local(raw));
-                            after = Some(cast("trunc", value, narrow, name, line, &metadata));
+                            after = Some(cast(Cast::Trunc, value, narrow, name, line, &metadata));
                         }
                     }
                 }
@@ -79,7 +80,7 @@ fn is_function(callee: &Callee) -> bool {
     }
 }
 
-fn cast(op: &str, value: Typed, to: Type, name: String, line: usize, of: &[(String, String)]) -> Instruction {
+fn cast(op: Cast, value: Typed, to: Type, name: String, line: usize, of: &[(String, String)]) -> Instruction {
     let metadata = of.iter().filter(|(name, _)| name == "dbg").cloned().collect();
-    Instruction { result: Some(name), op: Op::Cast { op: op.into(), value, to }, metadata, line }
+    Instruction { result: Some(name), op: Op::Cast { op, value, to }, metadata, line }
 }

@@ -4,35 +4,14 @@ use super::module::is_nothing;
 use super::{Parsed, Parser};
 use crate::lexer::Token;
 use crate::model::{Argument, Call, Callee, Instruction, Op, Ordering, Type, Typed, Value};
+use crate::opcode::{Atomic, FloatPredicate, IntPredicate, Opcode, Order, Other, Predicate};
 use crate::refusal::Unknown;
 
-const BINARY: [&str; 18] = [
-    "add", "sub", "mul", "udiv", "sdiv", "urem", "srem", "shl", "lshr", "ashr", "and", "or", "xor", "fadd", "fsub",
-    "fmul", "fdiv", "frem",
-];
-const CASTS: [&str; 14] = [
-    "trunc",
-    "zext",
-    "sext",
-    "fptrunc",
-    "fpext",
-    "fptoui",
-    "fptosi",
-    "uitofp",
-    "sitofp",
-    "ptrtoint",
-    "ptrtoaddr",
-    "inttoptr",
-    "bitcast",
-    "addrspacecast",
-];
 /// Flags of integer arithmetic that LLVM 7 knows.
 const INTEGER_FLAGS: [&str; 3] = ["nuw", "nsw", "exact"];
 /// Flags that LLVM 7 does not know; what they promise need not be used.
 const NEWER_FLAGS: [&str; 3] = ["disjoint", "nneg", "samesign"];
 const FLOAT_FLAGS: [&str; 8] = ["nnan", "ninf", "nsz", "arcp", "contract", "afn", "reassoc", "fast"];
-const ORDERINGS: [&str; 6] = ["unordered", "monotonic", "acquire", "release", "acq_rel", "seq_cst"];
-const ATOMICS: [&str; 11] = ["xchg", "add", "sub", "and", "or", "xor", "max", "min", "umax", "umin", "fadd"];
 /// What is kept of the metadata on instructions; the rest promises what need not be used.
 const METADATA: [&str; 6] = ["range", "noalias", "alias.scope", "invariant.load", "noundef", "dbg"];
 
@@ -91,47 +70,55 @@ impl<'a> Parser<'_, 'a> {
     }
 
     fn op(&mut self) -> Parsed<Op> {
-        let word = self.word()?;
-        match word {
-            op if BINARY.contains(&op) => {
-                let known: &[&str] = if op.starts_with('f') { &FLOAT_FLAGS } else { &INTEGER_FLAGS };
+        match Opcode::of(self.word()?)? {
+            Opcode::Binary(op) => {
+                let known: &[&str] = if op.is_float() { &FLOAT_FLAGS } else { &INTEGER_FLAGS };
                 let flags = self.flags(known);
                 let a = self.typed()?;
                 let b = self.second(&a.ty)?;
-                Ok(Op::Binary { op: op.to_string(), flags, a, b })
+                Ok(Op::Binary { op, flags, a, b })
             }
-            op if CASTS.contains(&op) => {
+            Opcode::Cast(op) => {
                 // No flag of a conversion is LLVM 7's.
                 self.flags(&["nuw", "nsw", "nnan", "ninf", "nsz", "arcp", "contract", "afn", "reassoc", "fast"]);
                 let value = self.typed()?;
                 self.expect_word("to")?;
-                let op = if op == "ptrtoaddr" { "ptrtoint" } else { op }.to_string();
                 Ok(Op::Cast { op, value, to: self.ty()? })
             }
-            "fneg" => {
+            Opcode::Other(other) => self.other(other),
+        }
+    }
+
+    fn other(&mut self, opcode: Other) -> Parsed<Op> {
+        match opcode {
+            Other::FNeg => {
                 self.flags(&FLOAT_FLAGS);
                 Ok(Op::Negate { value: self.typed()? })
             }
-            "freeze" => Ok(Op::Freeze { value: self.typed()? }),
-            "icmp" | "fcmp" => {
-                let flags = self.flags(if word == "icmp" { &[] } else { &FLOAT_FLAGS });
-                let predicate = self.word()?.to_string();
-                let a = self.typed()?;
-                let b = self.second(&a.ty)?;
-                Ok(Op::Compare { op: word.to_string(), flags, predicate, a, b })
+            Other::Freeze => Ok(Op::Freeze { value: self.typed()? }),
+            Other::ICmp => {
+                let flags = self.flags(&[]);
+                let predicate = self.one_by(IntPredicate::of, "a comparison of integers")?;
+                self.compare(predicate.into(), flags)
             }
-            "select" => {
+            Other::FCmp => {
+                let flags = self.flags(&FLOAT_FLAGS);
+                let predicate = self.one_by(FloatPredicate::of, "a comparison of floats")?;
+                self.compare(predicate.into(), flags)
+            }
+            Other::Select => {
                 self.flags(&FLOAT_FLAGS);
                 let condition = self.typed()?;
                 let yes = self.typed_after_comma()?;
                 Ok(Op::Select { condition, yes, no: self.typed_after_comma()? })
             }
-            "phi" => {
+            Other::Phi => {
                 self.flags(&FLOAT_FLAGS);
                 self.phi()
             }
-            "load" | "store" => self.access(word == "load"),
-            "getelementptr" => {
+            Other::Load => self.access(true),
+            Other::Store => self.access(false),
+            Other::GetElementPtr => {
                 let inbounds = self.address_flags()?;
                 let of = self.ty()?;
                 let base = self.typed_after_comma()?;
@@ -141,7 +128,7 @@ impl<'a> Parser<'_, 'a> {
                 }
                 Ok(Op::Address { inbounds, of, base, indices })
             }
-            "alloca" => {
+            Other::Alloca => {
                 let ty = self.ty()?;
                 let count = if self.has_operand() && self.peek_at(1) != Token::Word("align") {
                     Some(self.typed_after_comma()?)
@@ -150,60 +137,61 @@ impl<'a> Parser<'_, 'a> {
                 };
                 Ok(Op::Alloca { ty, count, align: self.alignment()? })
             }
-            "extractvalue" => {
+            Other::ExtractValue => {
                 let aggregate = self.typed()?;
                 Ok(Op::ExtractValue { aggregate, indices: self.indices()? })
             }
-            "insertvalue" => {
+            Other::InsertValue => {
                 let aggregate = self.typed()?;
                 let value = self.typed_after_comma()?;
                 Ok(Op::InsertValue { aggregate, value, indices: self.indices()? })
             }
-            "extractelement" => {
+            Other::ExtractElement => {
                 let vector = self.typed()?;
                 Ok(Op::ExtractElement { vector, index: self.typed_after_comma()? })
             }
-            "insertelement" => {
+            Other::InsertElement => {
                 let vector = self.typed()?;
                 let value = self.typed_after_comma()?;
                 Ok(Op::InsertElement { vector, value, index: self.typed_after_comma()? })
             }
-            "shufflevector" => {
+            Other::ShuffleVector => {
                 let a = self.typed()?;
                 let b = self.typed_after_comma()?;
                 Ok(Op::Shuffle { a, b, mask: self.typed_after_comma()? })
             }
-            "atomicrmw" => {
+            Other::AtomicRmw => {
                 self.eat_word("volatile");
-                let Some(op) = self.one_of(&ATOMICS) else {
-                    return self.unexpected("an atomic operation that the GPU has");
-                };
+                let op = self.one_by(Atomic::of, "an atomic operation that the GPU has")?;
                 let pointer = self.typed()?;
                 let value = self.typed_after_comma()?;
                 let ordering = self.ordering()?;
                 self.alignment()?;
-                Ok(Op::ReadModifyWrite { op: op.to_string(), pointer, value, ordering })
+                Ok(Op::ReadModifyWrite { op, pointer, value, ordering })
             }
-            "cmpxchg" => {
+            Other::CmpXchg => {
                 while self.one_of(&["weak", "volatile"]).is_some() {}
                 let pointer = self.typed()?;
                 let expected = self.typed_after_comma()?;
                 let new = self.typed_after_comma()?;
                 let mut ordering = self.ordering()?;
                 // What failure needs; success gives at least as much, and the machine has one for both.
-                if let Some(failure) = self.one_of(&ORDERINGS) {
-                    ordering.order = stronger(&ordering.order, failure).to_string();
+                if let Token::Word(word) = self.peek()
+                    && let Some(failure) = Order::of(word)
+                {
+                    self.at += 1;
+                    ordering.order = ordering.order.or(failure);
                 }
                 self.alignment()?;
                 Ok(Op::CompareExchange { pointer, expected, new, ordering })
             }
-            "fence" => Ok(Op::Fence(self.ordering()?)),
-            "tail" | "musttail" | "notail" => {
+            Other::Fence => Ok(Op::Fence(self.ordering()?)),
+            Other::Tail | Other::NoTail => {
                 self.expect_word("call")?;
-                self.call(word != "notail")
+                self.call(opcode == Other::Tail)
             }
-            "call" => self.call(false),
-            "ret" => {
+            Other::Call => self.call(false),
+            Other::Ret => {
                 let ty = self.ty()?;
                 if is_nothing(&ty) {
                     return Ok(Op::Return(None));
@@ -211,15 +199,16 @@ impl<'a> Parser<'_, 'a> {
                 let value = self.value(&ty)?;
                 Ok(Op::Return(Some(Typed { ty, value })))
             }
-            "br" => self.branch(),
-            "switch" => self.switch(),
-            "unreachable" => Ok(Op::Unreachable),
-            "invoke" | "landingpad" | "resume" | "cleanuppad" | "catchswitch" => {
-                Err(Unknown::new("unwinding").hint("device code is compiled with `panic = \"abort\"`"))
-            }
-            "va_arg" => Err(Unknown::new("a list of variable arguments").hint("pass a slice")),
-            other => Err(Unknown::new(format!("the instruction `{other}`"))),
+            Other::Br => self.branch(),
+            Other::Switch => self.switch(),
+            Other::Unreachable => Ok(Op::Unreachable),
         }
+    }
+
+    fn compare(&mut self, predicate: Predicate, flags: Vec<String>) -> Parsed<Op> {
+        let a = self.typed()?;
+        let b = self.second(&a.ty)?;
+        Ok(Op::Compare { predicate, flags, a, b })
     }
 
     /// The second operand, of the first one's type.
@@ -264,10 +253,7 @@ impl<'a> Parser<'_, 'a> {
             scope = self.text()?;
             self.expect(')')?;
         }
-        match self.one_of(&ORDERINGS) {
-            Some(order) => Ok(Ordering { order: order.to_string(), scope }),
-            None => self.unexpected("a memory ordering"),
-        }
+        Ok(Ordering { order: self.one_by(Order::of, "a memory ordering")?, scope })
     }
 
     fn access(&mut self, is_load: bool) -> Parsed<Op> {
@@ -404,15 +390,5 @@ impl<'a> Parser<'_, 'a> {
                 }
             }
         }
-    }
-}
-
-/// The stronger of two orderings of a compare-exchange.
-fn stronger<'a>(success: &'a str, failure: &'a str) -> &'a str {
-    match (success, failure) {
-        ("seq_cst", _) | (_, "seq_cst") => "seq_cst",
-        ("release", "acquire") => "acq_rel",
-        ("monotonic", "acquire") => "acquire",
-        _ => success,
     }
 }

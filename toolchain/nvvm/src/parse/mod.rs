@@ -100,6 +100,21 @@ impl<'a> Parser<'_, 'a> {
         }
     }
 
+    /// What the word that comes next stands for.
+    fn one_by<T>(&mut self, of: impl Fn(&str) -> Option<T>, wanted: &str) -> Parsed<T> {
+        let known = match self.peek() {
+            Token::Word(word) => of(word),
+            _ => None,
+        };
+        match known {
+            Some(known) => {
+                self.at += 1;
+                Ok(known)
+            }
+            None => self.unexpected(wanted),
+        }
+    }
+
     fn word(&mut self) -> Parsed<&'a str> {
         match self.peek() {
             Token::Word(word) => {

@@ -3,9 +3,8 @@
 use super::{Parsed, Parser};
 use crate::lexer::Token;
 use crate::model::{Expression, Type, Typed, Value};
+use crate::opcode::{Binary, Cast};
 use crate::refusal::Unknown;
-
-const CASTS: [&str; 6] = ["trunc", "ptrtoint", "ptrtoaddr", "inttoptr", "bitcast", "addrspacecast"];
 
 impl Parser<'_, '_> {
     pub(super) fn typed(&mut self) -> Parsed<Typed> {
@@ -30,26 +29,34 @@ impl Parser<'_, '_> {
             Token::Word("zeroinitializer") => Ok(Value::Zero),
             Token::Word("splat") => self.splat(ty),
             Token::Word("getelementptr") => self.address(),
-            Token::Word(op) if CASTS.contains(&op) => {
-                self.one_of(&["nuw", "nsw"]);
-                self.expect('(')?;
-                let value = self.typed()?;
-                self.expect_word("to")?;
-                let to = self.ty()?;
-                self.expect(')')?;
-                let op = if op == "ptrtoaddr" { "ptrtoint" } else { op }.to_string();
-                Ok(Value::Expression(Box::new(Expression::Cast { op, value, to })))
-            }
-            Token::Word(op @ ("add" | "sub" | "xor")) => {
-                while self.one_of(&["nuw", "nsw"]).is_some() {}
-                self.expect('(')?;
-                let a = self.typed()?;
-                self.expect(',')?;
-                let b = self.typed()?;
-                self.expect(')')?;
-                Ok(Value::Expression(Box::new(Expression::Binary { op: op.to_string(), a, b })))
-            }
-            Token::Word(word) if is_number(word, ty) => Ok(Value::Number(word.to_string())),
+            Token::Word(word) => match (Cast::of(word), Binary::of(word)) {
+                (
+                    Some(op @ (Cast::Trunc | Cast::PtrToInt | Cast::IntToPtr | Cast::Bitcast | Cast::Addrspacecast)),
+                    _,
+                ) => {
+                    self.one_of(&["nuw", "nsw"]);
+                    self.expect('(')?;
+                    let value = self.typed()?;
+                    self.expect_word("to")?;
+                    let to = self.ty()?;
+                    self.expect(')')?;
+                    Ok(Value::Expression(Box::new(Expression::Cast { op, value, to })))
+                }
+                (_, Some(op @ (Binary::Add | Binary::Sub | Binary::Xor))) => {
+                    while self.one_of(&["nuw", "nsw"]).is_some() {}
+                    self.expect('(')?;
+                    let a = self.typed()?;
+                    self.expect(',')?;
+                    let b = self.typed()?;
+                    self.expect(')')?;
+                    Ok(Value::Expression(Box::new(Expression::Binary { op, a, b })))
+                }
+                _ if is_number(word, ty) => Ok(Value::Number(word.to_string())),
+                _ => {
+                    self.at -= 1;
+                    self.unexpected("a value")
+                }
+            },
             Token::Punctuation('[') => Ok(Value::Aggregate(self.list(']', Self::typed)?)),
             Token::Punctuation('{') => Ok(Value::Aggregate(self.list('}', Self::typed)?)),
             Token::Punctuation('<') if self.eat('{') => {

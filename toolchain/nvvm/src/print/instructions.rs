@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::{Printed, Printer, align, values};
 use crate::Dialect;
 use crate::model::{Call, Callee, Op, Type, Typed, Value};
+use crate::opcode::{Other, Predicate};
 use crate::refusal::Unknown;
 
 impl Printer<'_> {
@@ -14,7 +15,11 @@ impl Printer<'_> {
             Op::Binary { op, flags, a, b } => {
                 format!("{op}{} {}, {}", spaced(flags), self.typed(a)?, self.value(&a.ty, b)?)
             }
-            Op::Compare { op, flags, predicate, a, b } => {
+            Op::Compare { predicate, flags, a, b } => {
+                let op = match predicate {
+                    Predicate::Int(_) => Other::ICmp,
+                    Predicate::Float(_) => Other::FCmp,
+                };
                 format!("{op}{} {predicate} {}, {}", spaced(flags), self.typed(a)?, self.value(&a.ty, b)?)
             }
             Op::Cast { op, value, to } => format!("{op} {} to {}", self.typed(value)?, self.ty(to)),
