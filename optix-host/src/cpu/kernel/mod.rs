@@ -7,11 +7,14 @@
 //! | `gas`, `ias` | structures and their inputs, checked |
 //! | `binary`, `collapse`, `bvh` | the 8-wide hierarchy: built by obvhs, collapsed at least cost, laid out |
 //! | `ray`, `simd`, `triangle` | the arithmetic: box and triangle tests, their error bounds |
-//! | `trace`, `stack`, `state`, `program`, `path` | traversal, any-hit, reports, hits |
+//! | `trace`, `stack` | traversal |
+//! | `candidate`, `state` | what becomes of what a test finds: interval, culling, any-hit, acceptance |
+//! | `program`, `path` | what programs are told, and report |
 
 mod aabb;
 mod binary;
 mod bvh;
+mod candidate;
 mod collapse;
 mod error;
 mod flags;

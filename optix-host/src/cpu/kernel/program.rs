@@ -1,10 +1,10 @@
 //! What the kernel asks of the shaders, and what it tells them.
 
+use super::candidate::{Offer, Sink};
 use super::flags::Verdict;
 use super::gas::Gas;
 use super::path::InstancePath;
 use super::ray::{Ray, RayQuery};
-use super::state::{Found, State};
 
 /// What an any-hit program decides (guide §13.13).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,12 +100,10 @@ impl Hit<'_> {
 
 /// Takes the hits that an intersection program finds on one primitive.
 pub struct Reporter<'r, 'a> {
-    pub(super) state: &'r mut State<'a>,
-    pub(super) site: &'r Site<'r>,
-    pub(super) path: &'r InstancePath<'a>,
-    pub(super) gas: &'a Gas,
+    pub(super) sink: Sink<'r, 'a>,
+    /// Counted over all inputs of the GAS.
     pub(super) primitive: u32,
-    pub(super) instance_offset: u32,
+    pub(super) record: u32,
     pub(super) verdict: Verdict,
 }
 
@@ -116,41 +114,23 @@ impl Reporter<'_, '_> {
     /// that wins ties (see [`trace`](super::trace)), or if the ray has ended. Only the lowest 7 bits of `hit_kind` and
     /// the first 8 `attributes` count.
     pub fn report(&mut self, programs: &mut dyn Programs, t: f32, hit_kind: u8, attributes: &[u32]) -> bool {
-        if !self.state.admits(t, self.path, self.primitive) {
+        let Self { primitive, record, verdict, .. } = *self;
+        if !self.sink.admits(t, primitive) {
             return false;
         }
         let mut words = [0; 8];
         words.iter_mut().zip(attributes).for_each(|(to, from)| *to = *from);
-        let found = Found {
-            t,
-            hit_kind: hit_kind & 0x7f,
-            attributes: words,
-            primitive: self.primitive,
-            record: self.site.sbt_gas_index,
-            instance_offset: self.instance_offset,
-            slot: 0,
-            gas: self.gas,
-        };
-        let answer = match self.verdict {
-            Verdict::AnyHit => programs.any_hit(&Candidate {
-                site: *self.site,
-                t,
-                hit_kind: found.hit_kind,
-                attributes: words,
-                slot: found.slot,
-            }),
-            _ => AnyHit::Accept,
-        };
-        self.state.settle(answer, found, self.path)
+        let offer = Offer { t, hit_kind: hit_kind & 0x7f, attributes: words, primitive, record, slot: 0 };
+        self.sink.take(offer, verdict, programs)
     }
 
     /// The end of the ray's interval: the closest hit accepted so far, else the trace's `tmax` (guide §13.5).
     pub fn tmax(&self) -> f32 {
-        self.state.tmax
+        self.sink.state.tmax
     }
 
     /// Whether an accepted report has ended the ray; an intersection program should return then.
     pub fn is_terminated(&self) -> bool {
-        self.state.ended
+        self.sink.state.ended
     }
 }

@@ -1,17 +1,18 @@
 //! Traversal.
 
 use super::bvh::{Bvh, Child, Lanes, WIDTH};
-use super::flags::{Verdict, any_hit_verdict, face_culled};
-use super::gas::{Content, Gas, block_of};
+use super::candidate::{Offer, Place, Sink};
+use super::flags::Verdict;
+use super::gas::{Content, block_of};
 use super::ias::{Accel, Ias};
 use super::path::InstancePath;
-use super::program::{AnyHit, Candidate, Hit, Programs, Reporter, Site};
+use super::program::{Hit, Programs, Reporter};
 use super::ray::{BoxRay, Frame, Ray, RayQuery, SHRINK, ShearRay};
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
 use super::simd::{Portable, Simd, Task};
 use super::stack::{Entry, Stack};
-use super::state::{Found, State, sbt_index};
+use super::state::State;
 use super::triangle::{self, Block, Sheared, TriangleHit};
 use crate::scene::InstanceFlags;
 
@@ -85,7 +86,10 @@ impl<'a> Task for AtRoot<'_, 'a> {
         let (state, path) = (&mut State::new(query, tmin, accel), &mut InstancePath::new(accel));
         let place = Place { query, tmin, space: &space, flags: InstanceFlags::NONE, sbt_offset: 0 };
         match accel {
-            Accel::Gas(gas) => simd.run(AtGas { gas, place, state, path, programs, far: false }),
+            Accel::Gas(gas) => {
+                let sink = Sink { gas, place, path, state: &mut *state };
+                simd.run(AtGas { sink, programs, far: false });
+            }
             Accel::Ias(ias) => AtIas { ias, place, state, path, programs }.run(simd),
         }
         state.hit(query)
@@ -93,8 +97,8 @@ impl<'a> Task for AtRoot<'_, 'a> {
 }
 
 /// The ray in some space.
-struct Space {
-    ray: Ray,
+pub struct Space {
+    pub ray: Ray,
     /// Origin and direction before rounding.
     exact: [[f64; 3]; 2],
     frame: Frame,
@@ -120,25 +124,9 @@ fn narrow([x, y, z]: [f64; 3]) -> [f32; 3] {
     [x as f32, y as f32, z as f32]
 }
 
-/// A space and what the instances above it say.
-#[derive(Clone, Copy)]
-struct Place<'s> {
-    query: &'s RayQuery,
-    /// The query's, but not negative.
-    tmin: f32,
-    space: &'s Space,
-    /// Those of the innermost instance (guide §5.4).
-    flags: InstanceFlags,
-    /// The sum over all instances.
-    sbt_offset: u32,
-}
-
 /// Traversal of a geometry acceleration structure.
 struct AtGas<'t, 'a> {
-    gas: &'a Gas,
-    place: Place<'t>,
-    state: &'t mut State<'a>,
-    path: &'t InstancePath<'a>,
+    sink: Sink<'t, 'a>,
     programs: &'t mut dyn Programs,
     /// Whether differences of coordinates may overflow.
     far: bool,
@@ -149,8 +137,8 @@ impl Task for AtGas<'_, '_> {
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) {
-        let (gas, frame) = (self.gas, &self.place.space.frame);
-        let limit = frame.depth_max(self.state.tmax);
+        let (gas, frame) = (self.sink.gas, &self.sink.place.space.frame);
+        let limit = frame.depth_max(self.sink.state.tmax);
         match &gas.content {
             Content::Triangles { blocks, .. } if gas.bvh.nodes.is_empty() => {
                 if let Some(far) = frame.is_far(&gas.bvh.bounds) {
@@ -178,7 +166,7 @@ impl AtGas<'_, '_> {
     /// Tests all triangles of a structure without nodes.
     #[inline(always)]
     fn few<S: Simd>(&mut self, simd: S, blocks: &[Block], mut limit: f32) {
-        let mut left = self.gas.primitive_count();
+        let mut left = self.sink.gas.primitive_count();
         for (index, block) in blocks.iter().enumerate() {
             let used = (1 << left.min(WIDTH)) - 1;
             left -= left.min(WIDTH);
@@ -192,29 +180,29 @@ impl AtGas<'_, '_> {
     /// Tests the triangles of a block that `used` has a bit for. Gives the new limit of depth, as [`walk`] wants it.
     #[inline(always)]
     fn block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
-        let frame = &self.place.space.frame;
+        let frame = &self.sink.place.space.frame;
         if self.far {
             return self.far_block(simd, block, index, used, limit);
         }
         let mut sheared = Sheared::default();
         let met = simd.triangles(block, &frame.shear, [frame.depth_min, limit], &mut sheared);
-        let before = self.state.tmax;
+        let before = self.sink.state.tmax;
         self.meet(&frame.shear, met & used, &sheared, block, index);
-        self.state.limit(before, limit, frame)
+        self.sink.state.limit(before, limit, frame)
     }
 
     /// [`AtGas::block`] where coordinates are so large that it is done with smaller ones.
     #[cold]
     #[inline(never)]
     fn far_block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
-        let frame = &self.place.space.frame;
+        let frame = &self.sink.place.space.frame;
         let shear = frame.shear.shrunk();
         let mut sheared = Sheared::default();
         let depths = [frame.depth_min * SHRINK, limit * SHRINK];
         let met = simd.triangles(&block.shrunk(), &shear, depths, &mut sheared);
-        let before = self.state.tmax;
+        let before = self.sink.state.tmax;
         self.meet(&shear, met & used, &sheared, block, index);
-        self.state.limit(before, limit, frame)
+        self.sink.state.limit(before, limit, frame)
     }
 
     /// Decides about the triangles of a block in these lanes.
@@ -225,73 +213,49 @@ impl AtGas<'_, '_> {
             lanes &= lanes - 1;
             let Some(hit) = triangle::hit(shear, triangle::lane_of(sheared, lane)) else { continue };
             let primitive = block.primitives[lane];
-            if self.state.admits(hit.t, self.path, primitive) {
+            if self.sink.admits(hit.t, primitive) {
                 self.offer(hit, primitive, (index * WIDTH + lane) as u32);
-                if self.state.ended {
+                if self.sink.state.ended {
                     return;
                 }
             }
         }
     }
 
-    /// Culls a triangle hit that the interval admits, or asks any-hit about it, or accepts it.
+    /// Offers a hit that the interval admits, unless flags hide the triangle.
     #[inline]
     fn offer(&mut self, hit: TriangleHit, primitive: u32, slot: u32) {
-        let (gas, here) = (self.gas, self.place);
-        let query = here.query;
-        let record = gas.record_of(primitive);
-        let geometry = gas.flags_of(record);
-        let verdict = any_hit_verdict(geometry, here.flags, query.flags);
-        let front = hit.front != here.flags.contains(InstanceFlags::FLIP_TRIANGLE_FACING);
-        if verdict == Verdict::Cull || face_culled(geometry, here.flags, query.flags, front) {
+        let record = self.sink.gas.record_of(primitive);
+        let verdict = self.sink.verdict(record);
+        if verdict == Verdict::Cull {
             return;
         }
-        let found = Found {
+        let Some(front) = self.sink.facing(record, hit.front) else { return };
+        let offer = Offer {
             t: hit.t,
             hit_kind: if front { FRONT_FACE } else { BACK_FACE },
             attributes: [hit.u.to_bits(), hit.v.to_bits(), 0, 0, 0, 0, 0, 0],
             primitive,
             record,
-            instance_offset: here.sbt_offset,
             slot,
-            gas,
         };
-        let answer = if verdict == Verdict::AnyHit {
-            self.programs.any_hit(&Candidate {
-                site: site(primitive, record, gas, here, self.path),
-                t: found.t,
-                hit_kind: found.hit_kind,
-                attributes: found.attributes,
-                slot,
-            })
-        } else {
-            AnyHit::Accept
-        };
-        self.state.settle(answer, found, self.path);
+        self.sink.take(offer, verdict, self.programs);
     }
 
     /// Has the intersection program look at a primitive. Gives the new limit of depth.
     #[inline(always)]
     fn custom(&mut self, primitive: u32, limit: f32) -> f32 {
-        let (gas, here) = (self.gas, self.place);
+        let Sink { gas, place, path, ref mut state } = self.sink;
         let record = gas.record_of(primitive);
-        let verdict = any_hit_verdict(gas.flags_of(record), here.flags, here.query.flags);
+        let sink = Sink { gas, place, path, state };
+        let verdict = sink.verdict(record);
         if verdict == Verdict::Cull {
             return limit;
         }
-        let before = self.state.tmax;
-        let site = site(primitive, record, gas, here, self.path);
-        let mut reporter = Reporter {
-            state: &mut *self.state,
-            site: &site,
-            path: self.path,
-            gas,
-            primitive,
-            instance_offset: here.sbt_offset,
-            verdict,
-        };
-        self.programs.intersect(&site, &mut reporter);
-        self.state.limit(before, limit, &here.space.frame)
+        let before = sink.state.tmax;
+        let site = place.site(gas, path, primitive, record);
+        self.programs.intersect(&site, &mut Reporter { sink, primitive, record, verdict });
+        self.sink.state.limit(before, limit, &place.space.frame)
     }
 }
 
@@ -342,8 +306,8 @@ impl Task for AtIas<'_, '_> {
             path.push(index);
             match &*instance.child {
                 Accel::Gas(gas) => {
-                    let (state, programs) = (&mut *state, &mut *programs);
-                    simd.run(AtGas { gas, place, state, path, programs, far: false });
+                    let sink = Sink { gas, place, path, state: &mut *state };
+                    simd.run(AtGas { sink, programs: &mut *programs, far: false });
                 }
                 Accel::Ias(ias) => {
                     simd.run(AtIas { ias, place, state: &mut *state, path: &mut *path, programs: &mut *programs });
@@ -352,18 +316,6 @@ impl Task for AtIas<'_, '_> {
             path.pop();
             state.limit(before, limit, frame)
         });
-    }
-}
-
-fn site<'s>(primitive: u32, record: u32, gas: &'s Gas, here: Place<'s>, path: &'s InstancePath<'s>) -> Site<'s> {
-    Site {
-        primitive_index: gas.primitive_index(primitive),
-        sbt_gas_index: record,
-        sbt_index: sbt_index(here.query, here.sbt_offset, record),
-        gas,
-        path,
-        query: here.query,
-        object_ray: here.space.ray,
     }
 }
 
