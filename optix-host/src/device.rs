@@ -2,7 +2,7 @@
 
 use crate::backend::Backend;
 use crate::cpu::CpuBackend;
-use crate::optix::OptixBackend;
+use crate::optix::{OptixBackend, OptixOptions};
 use crate::{Error, Result};
 use optix_device_rs::host::{Buffer, Buffer2d, shared};
 use optix_device_rs::prelude::Element;
@@ -129,11 +129,4 @@ impl Device {
         // 2^32 times 2^32 elements fit 64 bits, which `usize` has wherever OptiX is.
         Ok(Buffer2d::new(self.zeroed(size[0] as usize * size[1] as usize)?, size)?)
     }
-}
-
-/// How OptiX is set up.
-#[derive(Clone, Debug, Default)]
-pub struct OptixOptions {
-    /// Validation mode (guide 4.3): slow, reports what is otherwise undefined.
-    pub validation: bool,
 }

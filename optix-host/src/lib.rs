@@ -10,6 +10,9 @@
 mod affine;
 mod backend;
 pub mod cpu;
+#[cfg(feature = "cust")]
+#[cfg_attr(docsrs, doc(cfg(feature = "cust")))]
+pub mod cust;
 mod device;
 mod error;
 pub mod optix;
@@ -18,12 +21,10 @@ mod plan;
 pub mod sbt;
 pub mod scene;
 
-pub use device::{BackendKind, Device, OptixOptions};
+pub use device::{BackendKind, Device};
 pub use error::{Error, Result};
 pub use glam;
-#[cfg(feature = "cust")]
-#[cfg_attr(docsrs, doc(cfg(feature = "cust")))]
-pub use optix::cust;
+pub use optix::OptixOptions;
 pub use optix_device_rs::host::{Buffer, Buffer2d, InstanceTable, MemoryError, TriangleTable, World};
 pub use optix_report as report;
 pub use pipeline::{Launch, Pipeline, PipelineBuilder};

@@ -6,12 +6,12 @@ use super::driver::{
     PayloadType, Pipeline, PipelineOptions, PrimitiveKinds, ProgramGroup, Programs, Records, SbtIndices, SbtSection,
     SbtSections, ShaderBindingTable as DeviceTable, Source, TraversableGraph, TriangleInput, stack::CallDepths,
 };
-use super::feedback;
+use super::{OptixOptions, feedback};
 use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, IasInput, Linked, Running, next_device_id};
 use crate::plan::{Graph, Plan};
 use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
 use crate::scene::GeometryData;
-use crate::{Error, OptixOptions, Result};
+use crate::{Error, Result};
 use optix_device_rs::host::{self as device, DeviceId, GeometryKind, Kept, Memory, MemoryError};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// A GPU through OptiX.
 pub(crate) struct OptixBackend {
     id: DeviceId,
-    pub(super) context: Context,
+    pub(crate) context: Context,
 }
 
 impl OptixBackend {
@@ -108,7 +108,7 @@ impl Backend for OptixBackend {
     }
 }
 
-pub(super) struct OptixMemory {
+pub(crate) struct OptixMemory {
     pub device: DeviceId,
     pub buffer: DeviceBuffer,
 }

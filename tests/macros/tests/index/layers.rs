@@ -25,7 +25,6 @@ const EXCEPTIONS: &[(&str, &str)] = &[
     ("error", "scene"),
     ("error", "optix"),
     ("error", "cpu"),
-    ("optix", "device"),
     ("scene", "backend"),
     ("scene", "device"),
 ];

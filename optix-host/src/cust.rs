@@ -33,8 +33,8 @@ use ::cust::stream::Stream;
 use optix_device_rs::host::{Buffer, Memory};
 use optix_device_rs::prelude::Element;
 
-use super::backend::{OptixBackend, OptixMemory};
-use super::driver::{self, ContextOptions, CudaFailure};
+use crate::optix::driver::{self, ContextOptions, CudaFailure};
+use crate::optix::{OptixBackend, OptixMemory};
 use crate::{Device, Error, OptixOptions, Result};
 
 /// A device that works on cust's stream, which is of `context`. It keeps the stream, and the GPU's primary context.
