@@ -147,7 +147,8 @@ fn invalid(what: &'static str, problem: impl Into<String>, remedy: &'static str)
 fn failed(call: &'static str) -> impl FnOnce(CudaError) -> Error {
     move |error| {
         // Not its `Display`, which fails where the driver has no sentence for the code.
-        let (name, text) = (format!("{error:?}"), "reported by cust".into());
-        driver::Error::Cuda(Box::new(CudaFailure { call, name, code: error as i32, text, messages: Vec::new() })).into()
+        let (name, text, code) = (format!("{error:?}"), "reported by cust".into(), error as i32);
+        let remedy = driver::remedy::cuda_remedy(code);
+        driver::Error::Cuda(Box::new(CudaFailure { call, name, code, text, remedy, messages: Vec::new() })).into()
     }
 }

@@ -6,12 +6,13 @@ mod flags;
 mod geometry;
 mod material;
 
+pub use crate::error::GeometryError;
 pub(crate) use accel::AccelShared;
 pub use accel::{Accel, GasBuilder, GasMember, IasBuilder, Instance};
 pub(crate) use callable::{CallableShared, CallableState};
 pub use flags::InstanceFlags;
 pub(crate) use geometry::GeometryData;
-pub use geometry::{Aabb, Boxes, Geometry, GeometryError, TriangleMesh};
+pub use geometry::{Aabb, Boxes, Geometry, TriangleMesh};
 pub use material::Material;
 pub(crate) use material::MaterialState;
 

@@ -3,9 +3,9 @@
 use super::aabb::Aabb;
 use super::bvh::{Bvh, WIDTH};
 use super::collapse::Shape;
-use super::error::BuildError;
 use super::flags::GeometryFlags;
 use super::triangle::Block;
+use crate::error::BuildError;
 use glam::DVec3;
 
 /// How the primitives of a build input map to its SBT records (guide §5.1).

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use super::aabb::Aabb;
 use super::bvh::Bvh;
-use super::error::BuildError;
 use super::gas::{Gas, SINGLE_LEAF};
 use crate::affine::Affine;
+use crate::error::BuildError;
 use crate::scene::InstanceFlags;
 
 /// A structure that rays are traced against.

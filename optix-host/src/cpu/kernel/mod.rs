@@ -16,7 +16,6 @@ mod binary;
 mod bvh;
 mod candidate;
 mod collapse;
-mod error;
 mod flags;
 mod gas;
 mod ias;
@@ -33,8 +32,8 @@ mod triangle;
 mod tests;
 
 pub use crate::affine::Affine;
+pub use crate::error::BuildError;
 pub use aabb::Aabb;
-pub use error::BuildError;
 pub use flags::{GeometryFlags, Verdict, any_hit_verdict, ray_flags};
 pub use gas::{AabbInput, Gas, SbtMapping, TriangleInput};
 pub use ias::{Accel, Ias, Instance, MAX_GRAPH_DEPTH, Placed};

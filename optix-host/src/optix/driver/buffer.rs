@@ -7,8 +7,8 @@ use cudarc::driver::result;
 use cudarc::driver::sys as cu;
 
 use super::context::Context;
-use super::error::Error;
 use super::sys::CUdeviceptr;
+use crate::error::DriverError as Error;
 
 /// A range of device memory, freed when it is dropped. Its address is a multiple of 256 (cuMemAlloc), which covers the
 /// 128 bytes of acceleration structures (B011) and the 16 bytes of records (D003).

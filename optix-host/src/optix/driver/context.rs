@@ -10,11 +10,12 @@ use cudarc::driver::sys as cu;
 
 use super::compile_log::CompileLog;
 use super::cuda::{self, Current, DeviceInfo};
-use super::error::{Error, OptixFailure};
 use super::library::{self, Api};
 use super::limits::Limits;
-use super::log::{self, LogLevel, LogMessage, LogSink};
+use super::log::{self, LogLevel, LogSink};
+use super::remedy::optix_remedy;
 use super::sys::{self, FunctionTable, OptixDeviceProperty, OptixResult};
+use crate::error::{DriverError as Error, LogMessage, OptixFailure};
 
 /// How a [`Context`] is made.
 #[derive(Clone, Debug, Default)]
@@ -272,6 +273,7 @@ impl Inner {
             name: text(self.api.table.get_error_name(result)),
             code: result.0,
             text: text(self.api.table.get_error_string(result)),
+            remedy: optix_remedy(result),
             log: log(),
             messages: self.log.take_unreported(),
         })))

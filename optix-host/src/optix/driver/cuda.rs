@@ -5,9 +5,9 @@ use std::sync::OnceLock;
 use cudarc::driver::result::{self, DriverError};
 use cudarc::driver::sys as cu;
 
-use super::error::{CudaFailure, Error};
 use super::library;
-use super::log::LogMessage;
+use super::remedy::cuda_remedy;
+use crate::error::{CudaFailure, DriverError as Error, LogMessage};
 
 const LIBRARY: &str = if cfg!(windows) { "nvcuda.dll" } else { "libcuda.so.1" };
 
@@ -174,6 +174,7 @@ pub(super) fn check<T>(
             name: text(error.error_name()),
             code: error.0 as i32,
             text: text(error.error_string()),
+            remedy: cuda_remedy(error.0 as i32),
             messages: messages(),
         }))
     })

@@ -6,7 +6,7 @@ use cudarc::driver::result;
 use cudarc::driver::sys as cu;
 
 use super::context::Context;
-use super::error::Error;
+use crate::error::DriverError as Error;
 
 /// A mark on the context's stream.
 #[derive(Debug)]

@@ -7,10 +7,10 @@ use std::time::Duration;
 use super::KeepAlive;
 use super::buffer::{DeviceBuffer, PinnedBuffer};
 use super::context::Context;
-use super::error::Error;
 use super::event::Event;
 use super::pipeline::Pipeline;
 use super::sbt::ShaderBindingTable;
+use crate::error::DriverError as Error;
 
 /// Launch indices that one launch may have (C071).
 const MAX_LAUNCH: u64 = 1 << 30;

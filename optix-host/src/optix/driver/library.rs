@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use libloading::Library;
 
 use super::cuda;
-use super::error::Error;
 use super::sys::{self, Abi, FunctionTable, QueryFunctionTable};
+use crate::error::DriverError as Error;
 
 const LIBRARY: &str = if cfg!(windows) { "nvoptix.dll" } else { "libnvoptix.so.1" };
 

@@ -2,35 +2,12 @@
 
 use std::collections::VecDeque;
 use std::ffi::{CStr, c_char, c_void};
-use std::fmt;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use crate::error::LogMessage;
 
 /// Messages kept; older ones are dropped, since level 4 can be chatty.
 const CAPACITY: usize = 4096;
-
-/// One message of the driver.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LogMessage {
-    /// 1 fatal, 2 error, 3 warning, 4 print.
-    pub level: u32,
-    /// A short category.
-    pub tag: String,
-    /// The text, without a trailing newline.
-    pub text: String,
-}
-
-impl LogMessage {
-    /// Whether this is a warning or worse.
-    pub fn is_complaint(&self) -> bool {
-        self.level <= 3
-    }
-}
-
-impl fmt::Display for LogMessage {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "level {} [{}] {}", self.level, self.tag, self.text)
-    }
-}
 
 /// How much the driver logs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

@@ -19,7 +19,6 @@ mod buffer;
 mod compile_log;
 mod context;
 mod cuda;
-mod error;
 mod event;
 mod launch;
 mod library;
@@ -31,6 +30,7 @@ mod options;
 mod payload;
 mod pipeline;
 mod program;
+pub(crate) mod remedy;
 mod sbt;
 pub mod stack;
 pub mod sys;
@@ -39,6 +39,7 @@ mod transform;
 use std::any::Any;
 use std::sync::Arc;
 
+pub use crate::error::{CudaFailure, DriverError as Error, LogMessage, OptixFailure};
 pub use accel::{
     AabbInput, Accel, AccelOptions, GeometryFlags, Indices, Instance, Motion, Preference, Records, SbtIndices, Source,
     Traversable, TriangleInput,
@@ -46,10 +47,9 @@ pub use accel::{
 pub use buffer::DeviceBuffer;
 pub use context::{Context, ContextOptions, DiskCache};
 pub use cuda::{DeviceInfo, devices, ordinal_of};
-pub use error::{CudaFailure, Error, OptixFailure};
 pub use launch::{Launch, LaunchArgs};
 pub use limits::Limits;
-pub use log::{LogLevel, LogMessage};
+pub use log::LogLevel;
 pub use module::{BuiltinIntersection, Module};
 pub use module_options::{BoundValue, DebugLevel, ModuleOptions, OptimizationLevel};
 pub use options::{Exceptions, PipelineOptions, PrimitiveKinds, TraversableGraph};

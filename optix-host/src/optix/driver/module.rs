@@ -6,10 +6,10 @@ use std::sync::Arc;
 use super::accel::AccelOptions;
 use super::compile_log::CompileLog;
 use super::context::Context;
-use super::error::Error;
 use super::module_options::{ModuleOptions, RawModuleOptions};
 use super::options::PipelineOptions;
 use super::sys;
+use crate::error::DriverError as Error;
 
 /// Which built-in intersection program (guide §9.1). It must match the build it is used with (C052, C053).
 #[derive(Clone, Debug)]

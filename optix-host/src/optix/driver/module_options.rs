@@ -2,10 +2,10 @@
 
 use std::ffi::CString;
 
-use super::error::Error;
 use super::options::PipelineOptions;
 use super::payload::PayloadType;
 use super::sys;
+use crate::error::DriverError as Error;
 
 /// How one module is compiled. Modules of one pipeline may differ in it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use std::ffi::CString;
 
 use super::context::Context;
-use super::error::Error;
 use super::sys;
+use crate::error::DriverError as Error;
 
 /// Attribute words that a pipeline may reserve (C020).
 const MAX_ATTRIBUTE_VALUES: u32 = 8;

@@ -1,7 +1,7 @@
 //! Payload types and the semantics of their words (guide §14).
 
-use super::error::Error;
 use super::sys;
+use crate::error::DriverError as Error;
 
 /// A payload: for each 32-bit word, up to 32, who reads and writes it (guide §14).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -4,13 +4,13 @@ use std::sync::{Arc, Mutex};
 
 use super::compile_log::CompileLog;
 use super::context::Context;
-use super::error::Error;
 use super::launch::Slot;
 use super::module_options::or_null;
 use super::options::PipelineOptions;
 use super::program::ProgramGroup;
 use super::stack::{self, CallDepths, GroupStack, StackSizes};
 use super::sys;
+use crate::error::DriverError as Error;
 
 /// How a pipeline is linked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use super::compile_log::CompileLog;
 use super::context::Context;
-use super::error::Error;
 use super::module::Module;
 use super::options::c_name;
 use super::payload::PayloadType;
 use super::stack::GroupStack;
 use super::sys;
+use crate::error::DriverError as Error;
 
 /// An entry function of a module.
 #[derive(Clone, Copy, Debug)]

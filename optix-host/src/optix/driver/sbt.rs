@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::KeepAlive;
 use super::buffer::DeviceBuffer;
 use super::context::Context;
-use super::error::Error;
 use super::sys::{self, OPTIX_SBT_RECORD_ALIGNMENT, OPTIX_SBT_RECORD_HEADER_SIZE};
+use crate::error::DriverError as Error;
 
 /// Records of one section, packed on the host: each a 32-byte header from
 /// [`ProgramGroup::pack_header`](super::ProgramGroup::pack_header) and the application's data behind it.

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use super::accel::{Motion, Traversable};
 use super::buffer::DeviceBuffer;
 use super::context::Context;
-use super::error::Error;
 use super::sys::{self, OptixTraversableType as Type};
 use crate::affine::Affine;
+use crate::error::DriverError as Error;
 
 /// A transform above another traversable. Cheap to clone; keeps its memory and its child alive.
 #[derive(Clone, Debug)]

@@ -1,13 +1,13 @@
 //! Boxes of custom primitives (guide §5.1).
 
 use super::super::context::Context;
-use super::super::error::Error;
 use super::super::sys;
 use super::build::RawInput;
 use super::gas::{Input, check_keys, gas, place_keys, to_u32};
 use super::records::Records;
 use super::source::{Source, Staging};
 use super::{Accel, AccelOptions};
+use crate::error::DriverError as Error;
 
 /// Boxes of custom primitives (B037). Each box must enclose its primitive, at every time between two keys.
 #[derive(Clone, Debug)]

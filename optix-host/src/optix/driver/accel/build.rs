@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use super::super::buffer::DeviceBuffer;
 use super::super::context::Context;
-use super::super::error::Error;
 use super::super::sys::{self, OptixBuildInputType as Type, OptixBuildInputUnion as Union};
 use super::{Accel, AccelOptions, Inner, Traversable};
+use crate::error::DriverError as Error;
 
 /// A build input and the host arrays it points to.
 pub(super) struct RawInput {

@@ -1,11 +1,11 @@
 //! Geometry acceleration structures of any kind of primitive (guide §5, §5.1).
 
 use super::super::context::Context;
-use super::super::error::Error;
 use super::build::{RawInput, build};
 use super::records::Records;
 use super::source::{Source, Staging};
 use super::{Accel, AccelOptions};
+use crate::error::DriverError as Error;
 
 /// A geometry build input. Inputs of one build have one type (B004), and so do the elements of a slice.
 pub(super) trait Input {

@@ -1,13 +1,13 @@
 //! Instances (guide §5.4).
 
 use super::super::context::Context;
-use super::super::error::Error;
 use super::super::limits::Limits;
 use super::super::sys;
 use super::build::{RawInput, build};
 use super::source::{Source, Staging};
 use super::{Accel, AccelOptions, Traversable};
 use crate::affine::Affine;
+use crate::error::DriverError as Error;
 use crate::scene::InstanceFlags;
 
 // The bits are OptiX's.

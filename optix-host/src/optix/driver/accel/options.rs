@@ -1,9 +1,9 @@
 //! Build options (guide §5.5, §5.10).
 
-use super::super::error::Error;
 use super::super::sys::{
     OptixAccelBuildOptions, OptixBuildFlags, OptixBuildOperation, OptixMotionFlags, OptixMotionOptions,
 };
+use crate::error::DriverError as Error;
 
 /// How an acceleration structure is built.
 #[derive(Clone, Debug, Default, PartialEq)]

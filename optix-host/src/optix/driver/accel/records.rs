@@ -1,8 +1,8 @@
 //! Records of a build input (guide §5.1).
 
-use super::super::error::Error;
 use super::super::sys;
 use super::source::{Source, Staging};
+use crate::error::DriverError as Error;
 
 /// What holds for all primitives of a record (guide §5.1). A set, joined with [`Self::with`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

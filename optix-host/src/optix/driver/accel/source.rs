@@ -6,7 +6,7 @@ use bytemuck::NoUninit;
 
 use super::super::buffer::DeviceBuffer;
 use super::super::context::Context;
-use super::super::error::Error;
+use crate::error::DriverError as Error;
 
 /// Elements on the host, which the build uploads, or already on the device.
 #[derive(Clone, Copy, Debug)]

@@ -1,13 +1,13 @@
 //! Triangles (guide §5.1).
 
 use super::super::context::Context;
-use super::super::error::Error;
 use super::super::sys;
 use super::build::RawInput;
 use super::gas::{Input, check_keys, gas, place_keys, to_u32};
 use super::records::{Records, largest};
 use super::source::{Source, Staging};
 use super::{Accel, AccelOptions};
+use crate::error::DriverError as Error;
 
 /// Vertex indices, three a triangle.
 #[derive(Clone, Copy, Debug)]

@@ -1,5 +1,13 @@
 //! What can go wrong on the host. Each message says what was asked, what is wrong, and what to do.
 
+mod build;
+mod driver;
+mod geometry;
+
+pub use build::BuildError;
+pub use driver::{CudaFailure, DriverError, LogMessage, OptixFailure};
+pub use geometry::GeometryError;
+
 use optix_device_rs::host::MemoryError;
 use std::fmt;
 
@@ -12,7 +20,7 @@ pub type Result<T, E = Error> = core::result::Result<T, E>;
 pub enum Error {
     /// Geometry that no acceleration structure can be built from.
     #[error("{0}")]
-    Geometry(#[from] crate::scene::GeometryError),
+    Geometry(#[from] GeometryError),
     /// A scene that does not fit together.
     #[error("{0}")]
     Scene(String),
@@ -44,16 +52,16 @@ pub enum Error {
     },
     /// No OptiX on this machine.
     #[error("OptiX is not available: {0}")]
-    NoOptix(#[source] crate::optix::driver::Error),
+    NoOptix(#[source] DriverError),
     /// An error of the CUDA or OptiX driver.
     #[error("{0}")]
-    Driver(#[from] crate::optix::driver::Error),
+    Driver(#[from] DriverError),
     /// An error of a copy to or from device memory.
     #[error("device memory: {0}")]
     Memory(#[from] MemoryError),
     /// The CPU executor could not build an acceleration structure.
     #[error("acceleration structure: {0}")]
-    Build(#[from] crate::cpu::kernel::BuildError),
+    Build(#[from] BuildError),
 }
 
 /// As [`Display`](fmt::Display): what `main` prints of an error that it returns, and `unwrap` of one that it meets.
@@ -66,7 +74,6 @@ impl fmt::Debug for Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::GeometryError;
 
     #[test]
     fn what_main_prints_is_the_message() {

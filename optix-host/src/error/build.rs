@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// Why an acceleration structure was not built. Inputs are counted from 0 in the order given.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the variants and their fields are")]
 #[non_exhaustive]
 pub enum BuildError {
     #[error(
