@@ -16,6 +16,9 @@ pub struct Shape {
     pub leaf_cost: f32,
 }
 
+/// Every primitive in a slot of its own: the slot's box is the primitive's.
+pub const SINGLE_LEAF: Shape = Shape { leaf_size: 1, leaf_cost: 1.0 };
+
 /// Which wide nodes to make of a binary tree.
 pub struct Plan {
     tree: Binary,

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::aabb::Aabb;
 use super::bvh::Bvh;
-use super::gas::{Gas, SINGLE_LEAF};
+use super::collapse::SINGLE_LEAF;
+use super::gas::Gas;
 use crate::affine::Affine;
 use crate::error::BuildError;
 use crate::scene::InstanceFlags;

@@ -5,8 +5,9 @@
 //! | module | what |
 //! | --- | --- |
 //! | `gas`, `ias` | structures and their inputs, checked |
+//! | `primitive` | the kinds of primitives, a file or folder each |
 //! | `binary`, `collapse`, `bvh` | the 8-wide hierarchy: built by obvhs, collapsed at least cost, laid out |
-//! | `ray`, `simd`, `triangle` | the arithmetic: box and triangle tests, their error bounds |
+//! | `ray`, `simd`, `primitive::triangle::test` | the arithmetic: box and triangle tests, their error bounds |
 //! | `trace`, `stack` | traversal |
 //! | `candidate`, `state` | what becomes of what a test finds: interval, culling, any-hit, acceptance |
 //! | `program`, `path` | what programs are told, and report |
@@ -20,13 +21,13 @@ mod flags;
 mod gas;
 mod ias;
 mod path;
+mod primitive;
 mod program;
 mod ray;
 mod simd;
 mod stack;
 mod state;
 mod trace;
-mod triangle;
 
 #[cfg(test)]
 mod tests;
@@ -35,9 +36,11 @@ pub use crate::affine::Affine;
 pub use crate::error::BuildError;
 pub use aabb::Aabb;
 pub use flags::{GeometryFlags, Verdict, any_hit_verdict, ray_flags};
-pub use gas::{AabbInput, Gas, SbtMapping, TriangleInput};
+pub use gas::{Gas, SbtMapping};
 pub use ias::{Accel, Ias, Instance, MAX_GRAPH_DEPTH, Placed};
 pub use path::InstancePath;
+pub use primitive::custom::AabbInput;
+pub use primitive::triangle::{BACK_FACE, FRONT_FACE, TriangleInput};
 pub use program::{AnyHit, Candidate, Hit, Programs, Reporter, Site};
 pub use ray::{Ray, RayQuery};
-pub use trace::{BACK_FACE, FRONT_FACE, trace, trace_portable};
+pub use trace::{trace, trace_portable};

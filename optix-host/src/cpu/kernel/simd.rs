@@ -4,8 +4,8 @@
 //! bit-identical and a launch gives the same image on every machine.
 
 use super::bvh::{Lanes, Node, WIDTH};
+use super::primitive::triangle::test::{Block, EDGE_ABSOLUTE, EDGE_RELATIVE, Sheared};
 use super::ray::{BoxRay, ShearRay};
-use super::triangle::{Block, EDGE_ABSOLUTE, EDGE_RELATIVE, Sheared};
 
 /// A piece of work that is compiled once for each instruction set.
 pub trait Task {

@@ -1,24 +1,18 @@
 //! Traversal.
 
-use super::bvh::{Bvh, Child, Lanes, WIDTH};
-use super::candidate::{Offer, Place, Sink};
-use super::flags::Verdict;
-use super::gas::{Content, block_of};
+use super::bvh::{Bvh, Child, Lanes};
+use super::candidate::{Place, Sink};
 use super::ias::{Accel, Ias};
 use super::path::InstancePath;
-use super::program::{Hit, Programs, Reporter};
-use super::ray::{BoxRay, Frame, Ray, RayQuery, SHRINK, ShearRay};
+use super::primitive::{Leaves, Primitives};
+use super::program::{Hit, Programs};
+use super::ray::{BoxRay, Frame, Ray, RayQuery};
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
 use super::simd::{Portable, Simd, Task};
 use super::stack::{Entry, Stack};
 use super::state::State;
-use super::triangle::{self, Block, Sheared, TriangleHit};
 use crate::scene::InstanceFlags;
-
-/// Hit kinds of triangles (`OptixHitKind`).
-pub const FRONT_FACE: u8 = 254;
-pub const BACK_FACE: u8 = 255;
 
 /// Traces a ray (guide §13.2) and gives its closest accepted hit. No structure at all is a miss.
 ///
@@ -101,7 +95,7 @@ pub struct Space {
     pub ray: Ray,
     /// Origin and direction before rounding.
     exact: [[f64; 3]; 2],
-    frame: Frame,
+    pub frame: Frame,
 }
 
 impl Space {
@@ -125,137 +119,39 @@ fn narrow([x, y, z]: [f64; 3]) -> [f32; 3] {
 }
 
 /// Traversal of a geometry acceleration structure.
-struct AtGas<'t, 'a> {
-    sink: Sink<'t, 'a>,
-    programs: &'t mut dyn Programs,
+pub struct AtGas<'t, 'a> {
+    pub sink: Sink<'t, 'a>,
+    pub programs: &'t mut dyn Programs,
     /// Whether differences of coordinates may overflow.
-    far: bool,
+    pub far: bool,
 }
 
 impl Task for AtGas<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<S: Simd>(mut self, simd: S) {
-        let (gas, frame) = (self.sink.gas, &self.sink.place.space.frame);
-        let limit = frame.depth_max(self.sink.state.tmax);
-        match &gas.content {
-            Content::Triangles { blocks, .. } if gas.bvh.nodes.is_empty() => {
-                if let Some(far) = frame.is_far(&gas.bvh.bounds) {
-                    self.far = far;
-                    self.few(simd, blocks, limit);
-                }
-            }
-            Content::Triangles { blocks, .. } => {
-                let Some(boxes) = frame.boxes(&gas.bvh.bounds, 1.0) else { return };
-                self.far = boxes.far;
-                walk(simd, &gas.bvh, &boxes, limit, |payload, limit| {
-                    let (index, used) = block_of(payload);
-                    self.block(simd, &blocks[index], index, used, limit)
-                });
-            }
-            Content::Custom { .. } => {
-                let Some(boxes) = frame.boxes(&gas.bvh.bounds, 1.0) else { return };
-                walk(simd, &gas.bvh, &boxes, limit, |primitive, limit| self.custom(primitive, limit));
-            }
+    fn run<S: Simd>(self, simd: S) {
+        match &self.sink.gas.primitives {
+            Primitives::Triangles(triangles) => self.traverse(simd, triangles),
+            Primitives::Custom(boxes) => self.traverse(simd, boxes),
         }
     }
 }
 
 impl AtGas<'_, '_> {
-    /// Tests all triangles of a structure without nodes.
     #[inline(always)]
-    fn few<S: Simd>(&mut self, simd: S, blocks: &[Block], mut limit: f32) {
-        let mut left = self.sink.gas.primitive_count();
-        for (index, block) in blocks.iter().enumerate() {
-            let used = (1 << left.min(WIDTH)) - 1;
-            left -= left.min(WIDTH);
-            limit = self.block(simd, block, index, used, limit);
-            if limit == f32::NEG_INFINITY {
-                return;
+    fn traverse<S: Simd>(mut self, simd: S, leaves: &impl Leaves) {
+        let (bvh, frame) = (&self.sink.gas.bvh, &self.sink.place.space.frame);
+        let limit = frame.depth_max(self.sink.state.tmax);
+        if bvh.nodes.is_empty() {
+            if let Some(far) = frame.is_far(&bvh.bounds) {
+                self.far = far;
+                leaves.visit_all(simd, &mut self, limit);
             }
+        } else if let Some(boxes) = frame.boxes(&bvh.bounds, 1.0) {
+            self.far = boxes.far;
+            walk(simd, bvh, &boxes, limit, |leaf, limit| leaves.visit(simd, &mut self, leaf, limit));
         }
-    }
-
-    /// Tests the triangles of a block that `used` has a bit for. Gives the new limit of depth, as [`walk`] wants it.
-    #[inline(always)]
-    fn block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
-        let frame = &self.sink.place.space.frame;
-        if self.far {
-            return self.far_block(simd, block, index, used, limit);
-        }
-        let mut sheared = Sheared::default();
-        let met = simd.triangles(block, &frame.shear, [frame.depth_min, limit], &mut sheared);
-        let before = self.sink.state.tmax;
-        self.meet(&frame.shear, met & used, &sheared, block, index);
-        self.sink.state.limit(before, limit, frame)
-    }
-
-    /// [`AtGas::block`] where coordinates are so large that it is done with smaller ones.
-    #[cold]
-    #[inline(never)]
-    fn far_block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
-        let frame = &self.sink.place.space.frame;
-        let shear = frame.shear.shrunk();
-        let mut sheared = Sheared::default();
-        let depths = [frame.depth_min * SHRINK, limit * SHRINK];
-        let met = simd.triangles(&block.shrunk(), &shear, depths, &mut sheared);
-        let before = self.sink.state.tmax;
-        self.meet(&shear, met & used, &sheared, block, index);
-        self.sink.state.limit(before, limit, frame)
-    }
-
-    /// Decides about the triangles of a block in these lanes.
-    #[inline(always)]
-    fn meet(&mut self, shear: &ShearRay, mut lanes: u32, sheared: &Sheared, block: &Block, index: usize) {
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize & (WIDTH - 1);
-            lanes &= lanes - 1;
-            let Some(hit) = triangle::hit(shear, triangle::lane_of(sheared, lane)) else { continue };
-            let primitive = block.primitives[lane];
-            if self.sink.admits(hit.t, primitive) {
-                self.offer(hit, primitive, (index * WIDTH + lane) as u32);
-                if self.sink.state.ended {
-                    return;
-                }
-            }
-        }
-    }
-
-    /// Offers a hit that the interval admits, unless flags hide the triangle.
-    #[inline]
-    fn offer(&mut self, hit: TriangleHit, primitive: u32, slot: u32) {
-        let record = self.sink.gas.record_of(primitive);
-        let verdict = self.sink.verdict(record);
-        if verdict == Verdict::Cull {
-            return;
-        }
-        let Some(front) = self.sink.facing(record, hit.front) else { return };
-        let offer = Offer {
-            t: hit.t,
-            hit_kind: if front { FRONT_FACE } else { BACK_FACE },
-            attributes: [hit.u.to_bits(), hit.v.to_bits(), 0, 0, 0, 0, 0, 0],
-            primitive,
-            record,
-            slot,
-        };
-        self.sink.take(offer, verdict, self.programs);
-    }
-
-    /// Has the intersection program look at a primitive. Gives the new limit of depth.
-    #[inline(always)]
-    fn custom(&mut self, primitive: u32, limit: f32) -> f32 {
-        let Sink { gas, place, path, ref mut state } = self.sink;
-        let record = gas.record_of(primitive);
-        let sink = Sink { gas, place, path, state };
-        let verdict = sink.verdict(record);
-        if verdict == Verdict::Cull {
-            return limit;
-        }
-        let before = sink.state.tmax;
-        let site = place.site(gas, path, primitive, record);
-        self.programs.intersect(&site, &mut Reporter { sink, primitive, record, verdict });
-        self.sink.state.limit(before, limit, &place.space.frame)
     }
 }
 

@@ -3,10 +3,10 @@
 use std::cmp::Ordering;
 
 use super::super::bvh::{Bvh, Lanes};
-use super::super::gas::SINGLE_LEAF;
+use super::super::collapse::SINGLE_LEAF;
+use super::super::primitive::triangle::test::{self as triangle, Block, Sheared, TriangleHit, edge};
 use super::super::ray::{Axis, BoxRay, Frame, ShearRay};
 use super::super::simd::Task;
-use super::super::triangle::{self, Block, Sheared, TriangleHit, edge};
 use super::*;
 use crate::cpu::kernel::simd::Portable;
 

@@ -1,0 +1,231 @@
+//! Triangles.
+
+pub mod test;
+
+use super::Leaves;
+use crate::cpu::kernel::aabb::Aabb;
+use crate::cpu::kernel::bvh::{Bvh, WIDTH};
+use crate::cpu::kernel::candidate::Offer;
+use crate::cpu::kernel::collapse::Shape;
+use crate::cpu::kernel::flags::Verdict;
+use crate::cpu::kernel::gas::SbtMapping;
+use crate::cpu::kernel::ray::{SHRINK, ShearRay};
+use crate::cpu::kernel::simd::Simd;
+use crate::cpu::kernel::trace::AtGas;
+use crate::error::BuildError;
+use glam::DVec3;
+use test::{Block, Sheared, TriangleHit};
+
+/// Hit kinds of triangles (`OptixHitKind`).
+pub const FRONT_FACE: u8 = 254;
+pub const BACK_FACE: u8 = 255;
+
+/// A triangle build input. The front of a triangle is the side from which its corners go counter-clockwise.
+#[derive(Clone, Debug)]
+pub struct TriangleInput {
+    pub vertices: Vec<[f32; 3]>,
+    /// Without it, every three vertices are a triangle.
+    pub indices: Option<Vec<[u32; 3]>>,
+    pub sbt: SbtMapping,
+    /// Added to primitive indices when they are reported.
+    pub primitive_index_offset: u32,
+}
+
+impl TriangleInput {
+    pub(in super::super) fn len(&self) -> usize {
+        self.indices.as_ref().map_or(self.vertices.len() / 3, Vec::len)
+    }
+
+    fn corners(&self, triangle: usize) -> [usize; 3] {
+        match &self.indices {
+            Some(indices) => indices[triangle].map(|i| i as usize),
+            None => std::array::from_fn(|corner| 3 * triangle + corner),
+        }
+    }
+
+    /// The corners of a triangle, counted without the offset.
+    ///
+    /// # Panics
+    /// If there is no such triangle, or it has an index of no vertex.
+    pub fn triangle(&self, triangle: usize) -> [[f32; 3]; 3] {
+        self.corners(triangle).map(|i| self.vertices[i])
+    }
+
+    pub(in super::super) fn check(&self, input: usize) -> Result<(), BuildError> {
+        let vertices = self.vertices.len();
+        if self.indices.is_none() && !vertices.is_multiple_of(3) {
+            return Err(BuildError::IncompleteTriangle { input, vertices });
+        }
+        for (triangle, indices) in self.indices.iter().flatten().enumerate() {
+            if let Some(corner) = indices.iter().position(|&i| i as usize >= vertices) {
+                return Err(BuildError::IndexOutOfRange { input, triangle, corner, index: indices[corner], vertices });
+            }
+        }
+        match self.vertices.iter().position(|v| !v.iter().all(|x| x.is_finite())) {
+            Some(vertex) => Err(BuildError::NonFiniteVertex { input, vertex, position: self.vertices[vertex] }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Bits of a leaf's payload that hold the block.
+const BLOCK_BITS: u32 = 28;
+
+/// Up to this many triangles have no nodes: testing two blocks is less work than a node and the blocks it leads to.
+pub(in super::super) const DIRECT_TRIANGLES: usize = 2 * WIDTH;
+
+/// A block is about as much work as a node.
+const LEAF: Shape = Shape { leaf_size: WIDTH as u32, leaf_cost: 1.0 };
+
+/// The block of a leaf and the mask of its lanes in use.
+#[inline(always)]
+fn block_of(leaf: u32) -> (usize, u32) {
+    let last = leaf >> BLOCK_BITS;
+    ((leaf & ((1 << BLOCK_BITS) - 1)) as usize, (2 << last) - 1)
+}
+
+/// The triangles of a structure.
+///
+/// A leaf's payload is the index of its block, and its number of triangles less 1 in the highest 3 of 31 bits. Without nodes, all blocks
+/// are tested, and all but the last are full.
+#[derive(Debug)]
+pub struct Triangles {
+    blocks: Vec<Block>,
+    inputs: Vec<TriangleInput>,
+}
+
+impl Triangles {
+    /// Packs triangles, which were checked.
+    pub fn build(inputs: Vec<TriangleInput>) -> (Bvh, Self) {
+        let triangles: Vec<[[f32; 3]; 3]> =
+            inputs.iter().flat_map(|input| (0..input.len()).map(|i| input.triangle(i))).collect();
+        let boxes: Vec<Aabb> = triangles.iter().map(|corners| Aabb::around(corners)).collect();
+        let mut blocks = Vec::with_capacity(triangles.len() / 4);
+        let bvh = if triangles.len() <= DIRECT_TRIANGLES {
+            let all: Vec<u32> = (0..triangles.len() as u32).collect();
+            blocks.extend(all.chunks(WIDTH).map(|primitives| Block::new(primitives, &triangles)));
+            Bvh::bounds_only(&boxes)
+        } else {
+            Bvh::build(&boxes, LEAF, |primitives| {
+                blocks.push(Block::new(primitives, &triangles));
+                (blocks.len() - 1) as u32 | (primitives.len() as u32 - 1) << BLOCK_BITS
+            })
+        };
+        blocks.shrink_to_fit();
+        (bvh, Self { blocks, inputs })
+    }
+
+    /// The corners of a triangle of an input: NaN for one without area.
+    pub fn vertices(&self, input: usize, local: usize) -> Option<[[f32; 3]; 3]> {
+        let input = &self.inputs[input];
+        let corners = (local < input.len()).then(|| input.triangle(local))?;
+        Some(if has_area(&corners) { corners } else { [[f32::NAN; 3]; 3] })
+    }
+
+    /// The corners of the triangle in a lane of a block; see [`Found::slot`](crate::cpu::kernel::state::Found::slot).
+    #[inline]
+    pub fn in_slot(&self, slot: u32) -> Option<[[f32; 3]; 3]> {
+        Some(self.blocks.get(slot as usize / WIDTH)?.triangle(slot as usize % WIDTH))
+    }
+
+    /// Heap bytes.
+    pub fn memory_bytes(&self) -> usize {
+        let input =
+            |i: &TriangleInput| size_of_val(&i.vertices[..]) + i.indices.as_ref().map_or(0, |x| size_of_val(&x[..]));
+        size_of_val(&self.blocks[..]) + self.inputs.iter().map(input).sum::<usize>()
+    }
+}
+
+/// Whether the corners span a triangle.
+fn has_area(corners: &[[f32; 3]; 3]) -> bool {
+    let [a, b, c] = corners.map(|corner| DVec3::from_array(corner.map(f64::from)));
+    (b - a).cross(c - a) != DVec3::ZERO
+}
+
+impl Leaves for Triangles {
+    #[inline(always)]
+    fn visit<S: Simd>(&self, simd: S, ray: &mut AtGas<'_, '_>, leaf: u32, limit: f32) -> f32 {
+        let (index, used) = block_of(leaf);
+        ray.block(simd, &self.blocks[index], index, used, limit)
+    }
+
+    #[inline(always)]
+    fn visit_all<S: Simd>(&self, simd: S, ray: &mut AtGas<'_, '_>, mut limit: f32) {
+        let mut left = ray.sink.gas.primitive_count();
+        for (index, block) in self.blocks.iter().enumerate() {
+            let used = (1 << left.min(WIDTH)) - 1;
+            left -= left.min(WIDTH);
+            limit = ray.block(simd, block, index, used, limit);
+            if limit == f32::NEG_INFINITY {
+                return;
+            }
+        }
+    }
+}
+
+impl AtGas<'_, '_> {
+    /// Tests the triangles of a block that `used` has a bit for. Gives the new limit of depth, as [`Leaves::visit`] does.
+    #[inline(always)]
+    fn block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
+        let frame = &self.sink.place.space.frame;
+        if self.far {
+            return self.far_block(simd, block, index, used, limit);
+        }
+        let mut sheared = Sheared::default();
+        let met = simd.triangles(block, &frame.shear, [frame.depth_min, limit], &mut sheared);
+        let before = self.sink.state.tmax;
+        self.meet(&frame.shear, met & used, &sheared, block, index);
+        self.sink.state.limit(before, limit, frame)
+    }
+
+    /// [`AtGas::block`] where coordinates are so large that it is done with smaller ones.
+    #[cold]
+    #[inline(never)]
+    fn far_block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
+        let frame = &self.sink.place.space.frame;
+        let shear = frame.shear.shrunk();
+        let mut sheared = Sheared::default();
+        let depths = [frame.depth_min * SHRINK, limit * SHRINK];
+        let met = simd.triangles(&block.shrunk(), &shear, depths, &mut sheared);
+        let before = self.sink.state.tmax;
+        self.meet(&shear, met & used, &sheared, block, index);
+        self.sink.state.limit(before, limit, frame)
+    }
+
+    /// Decides about the triangles of a block in these lanes.
+    #[inline(always)]
+    fn meet(&mut self, shear: &ShearRay, mut lanes: u32, sheared: &Sheared, block: &Block, index: usize) {
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize & (WIDTH - 1);
+            lanes &= lanes - 1;
+            let Some(hit) = test::hit(shear, test::lane_of(sheared, lane)) else { continue };
+            let primitive = block.primitives[lane];
+            if self.sink.admits(hit.t, primitive) {
+                self.offer(hit, primitive, (index * WIDTH + lane) as u32);
+                if self.sink.state.ended {
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Offers a hit that the interval admits, unless flags hide the triangle.
+    #[inline]
+    fn offer(&mut self, hit: TriangleHit, primitive: u32, slot: u32) {
+        let record = self.sink.gas.record_of(primitive);
+        let verdict = self.sink.verdict(record);
+        if verdict == Verdict::Cull {
+            return;
+        }
+        let Some(front) = self.sink.facing(record, hit.front) else { return };
+        let offer = Offer {
+            t: hit.t,
+            hit_kind: if front { FRONT_FACE } else { BACK_FACE },
+            attributes: [hit.u.to_bits(), hit.v.to_bits(), 0, 0, 0, 0, 0, 0],
+            primitive,
+            record,
+            slot,
+        };
+        self.sink.take(offer, verdict, self.programs);
+    }
+}
