@@ -25,7 +25,7 @@ use crate::scene::InstanceFlags;
 /// Which candidates behind the final hit are offered to any-hit depends on the order of traversal, as the guide allows
 /// (§13.4); that order is the same in every run.
 ///
-/// Watertight within a GAS: see `triangle.rs`. Between instances nothing is promised, as in OptiX, because each has a
+/// Watertight within a GAS: see `primitive/triangle/test.rs`. Between instances nothing is promised, as in OptiX, because each has a
 /// ray of its own.
 ///
 /// It is compiled once, here, and calls the programs through a table, so that it is as fast from other crates as it is from this

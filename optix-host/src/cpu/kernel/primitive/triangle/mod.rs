@@ -72,7 +72,7 @@ impl TriangleInput {
 const BLOCK_BITS: u32 = 28;
 
 /// Up to this many triangles have no nodes: testing two blocks is less work than a node and the blocks it leads to.
-pub(in super::super) const DIRECT_TRIANGLES: usize = 2 * WIDTH;
+const DIRECT_TRIANGLES: usize = 2 * WIDTH;
 
 /// A block is about as much work as a node.
 const LEAF: Shape = Shape { leaf_size: WIDTH as u32, leaf_cost: 1.0 };
