@@ -5,7 +5,7 @@
 //!
 //! | step | module |
 //! | --- | --- |
-//! | text to a model | `lexer`, `parse`, `model`, `opcode` |
+//! | text to a model | the crate `optix_llvm_ir` |
 //! | what LLVM 7 or libNVVM does not know to what it does | `lower` |
 //! | the model to text, in either dialect | `print` |
 //! | what can't be translated, and where it is | `refusal` |
@@ -13,12 +13,8 @@
 
 mod driver;
 mod find;
-mod lexer;
 mod library;
 mod lower;
-mod model;
-mod opcode;
-mod parse;
 mod print;
 mod refusal;
 
@@ -70,7 +66,8 @@ pub struct Translated {
 /// # Ok::<(), optix_nvvm::Refusal>(())
 /// ```
 pub fn translate(ir: &str, dialect: Dialect) -> Result<Translated, Refusal> {
-    let mut module = parse::module(ir)?;
+    let read = optix_llvm_ir::module(ir);
+    let mut module = read.map_err(|refused| Refusal::of(refused.unknown, ir, refused.line, &refused.function))?;
     let needs_libdevice = lower::module(&mut module, ir)?;
     Ok(Translated { text: print::module(&module, dialect, ir)?, needs_libdevice })
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use optix_llvm_ir::Unknown;
+
 /// A construct of LLVM IR that this translation does not know.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
@@ -16,7 +18,7 @@ pub struct Refusal {
 }
 
 /// The way out that is always there.
-pub(super) const OTHER_GENERATOR: &str = "compile this crate with rustc's own code generator (`--codegen rustc`)";
+const OTHER_GENERATOR: &str = "compile this crate with rustc's own code generator (`--codegen rustc`)";
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -31,32 +33,16 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// A refusal that does not know where it is yet.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Unknown {
-    pub reason: String,
-    pub hint: &'static str,
-}
-
-impl Unknown {
-    pub fn new(reason: impl Into<String>) -> Self {
-        Self { reason: reason.into(), hint: OTHER_GENERATOR }
-    }
-
-    pub fn hint(mut self, hint: &'static str) -> Self {
-        self.hint = hint;
-        self
-    }
-
-    /// The refusal of line `line` of `text`, in the function of that symbol.
-    pub fn at(self, text: &str, line: usize, symbol: &str) -> Refusal {
+impl Refusal {
+    /// What is not known in line `line` of `text`, in the function of that symbol.
+    pub(super) fn of(unknown: Unknown, text: &str, line: usize, symbol: &str) -> Self {
         let instruction = text.lines().nth(line).unwrap_or_default().trim();
         let end = instruction.char_indices().nth(160).map_or(instruction.len(), |(at, _)| at);
-        Refusal {
+        Self {
             function: format!("{:#}", rustc_demangle::demangle(symbol)),
             instruction: instruction[..end].to_string(),
-            reason: self.reason,
-            hint: self.hint,
+            reason: unknown.reason,
+            hint: unknown.hint.unwrap_or(OTHER_GENERATOR),
         }
     }
 }

@@ -4,9 +4,9 @@
 //! one that Rust's maps to.
 
 use super::builder::{Builder, constant};
-use crate::model::{Ordering, Type, Typed};
-use crate::opcode::{Atomic, Binary, Cast, IntPredicate, Order};
-use crate::refusal::Unknown;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Ordering, Type, Typed};
+use optix_llvm_ir::opcode::{Atomic, Binary, Cast, IntPredicate, Order};
 
 /// The way out for what the GPU has no instruction for.
 const WIDER: &str = "use an atomic of 32 or 64 bits";

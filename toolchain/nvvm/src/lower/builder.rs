@@ -3,9 +3,9 @@
 use std::collections::{HashMap, HashSet};
 
 use super::{Called, Lowered};
-use crate::model::{Argument, Attributes, Call, Callee, Instruction, Op, Type, Typed, Value};
-use crate::opcode::{Binary, Cast, IntPredicate, Predicate};
-use crate::refusal::Unknown;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Argument, Attributes, Call, Callee, Instruction, Op, Type, Typed, Value};
+use optix_llvm_ir::opcode::{Binary, Cast, IntPredicate, Predicate};
 
 /// The first character of names that are made here; no compiler writes it.
 pub(crate) const FRESH: char = '~';

@@ -6,7 +6,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::builder::asm_call;
-use crate::model::{Function, Instruction, Op, Type};
+use optix_llvm_ir::model::{Function, Instruction, Op, Type};
 
 /// Puts an effect into each block from which no end of the function can be reached.
 pub(super) fn mark(function: &mut Function) {

@@ -2,9 +2,9 @@
 
 use super::builder::{Builder, constant, float};
 use super::libdevice;
-use crate::model::{Op, Type, Typed, Value};
-use crate::opcode::{Binary, Cast, FloatPredicate, IntPredicate};
-use crate::refusal::Unknown;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Op, Type, Typed, Value};
+use optix_llvm_ir::opcode::{Binary, Cast, FloatPredicate, IntPredicate};
 
 /// Keeps libNVVM from what it fails at: it joins stores to a vector of eight halves, which it can't store, and has no conversion
 /// of a half to 128 bits.

@@ -6,9 +6,9 @@
 use std::collections::HashSet;
 
 use super::builder::Builder;
-use crate::model::{Callee, Function, Instruction, Op, Type, Typed, Value};
-use crate::opcode::{Binary, Cast};
-use crate::refusal::Unknown;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Callee, Function, Instruction, Op, Type, Typed, Value};
+use optix_llvm_ir::opcode::{Binary, Cast};
 
 pub(super) fn lower(builder: &mut Builder<'_>, value: &Typed) -> Result<Typed, Unknown> {
     if is_defined(&value.value, &builder.defined) {

@@ -1,9 +1,9 @@
 //! Integer operations that LLVM 7 does not know, or not in every width.
 
 use super::builder::{Builder, constant};
-use crate::model::{Type, Typed};
-use crate::opcode::{Binary, Cast, IntPredicate};
-use crate::refusal::Unknown;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Type, Typed};
+use optix_llvm_ir::opcode::{Binary, Cast, IntPredicate};
 
 /// The way out for arithmetic of more than 64 bits.
 const NARROWER: &str = "use integers of up to 64 bits there";

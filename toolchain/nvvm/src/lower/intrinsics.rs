@@ -4,9 +4,9 @@
 
 use super::builder::{Builder, argument};
 use super::{Lowered, floats, integers, libdevice, reduce};
-use crate::model::{Argument, Call, Type, Typed, Value};
-use crate::opcode::{Binary, Cast, IntPredicate};
-use crate::refusal::Unknown;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Argument, Call, Type, Typed, Value};
+use optix_llvm_ir::opcode::{Binary, Cast, IntPredicate};
 
 /// What only tells the optimiser or a debugger something, and has no result.
 const LEFT_OUT: [&str; 7] = [

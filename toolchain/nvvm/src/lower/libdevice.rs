@@ -2,8 +2,8 @@
 
 use super::Lowered;
 use super::builder::Builder;
-use crate::model::{Call, Type, Typed};
-use crate::refusal::Unknown;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Call, Type, Typed};
 
 /// What its names begin with.
 pub(super) const PREFIX: &str = "__nv_";

@@ -17,11 +17,12 @@ mod widths;
 
 use std::collections::{BTreeMap, HashSet};
 
-use super::model::{Argument, Function, Instruction, Module, Op, Type, Typed, Value};
-use super::opcode::Binary;
-use super::refusal::{Refusal, Unknown};
+use super::refusal::Refusal;
 use builder::Builder;
 pub(super) use builder::FRESH;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Argument, Function, Instruction, Module, Op, Type, Typed, Value};
+use optix_llvm_ir::opcode::Binary;
 
 /// The functions that lowered code calls, by name: result and parameters.
 type Called = BTreeMap<String, (Type, Vec<Type>)>;
@@ -74,7 +75,8 @@ fn function(function: &mut Function, called: &mut Called, own: &HashSet<String>,
     for block in &mut function.blocks {
         for instruction in std::mem::take(&mut block.instructions) {
             builder.at(&instruction);
-            lower(&mut builder, instruction).map_err(|unknown| unknown.at(text, builder.line, &function.name))?;
+            lower(&mut builder, instruction)
+                .map_err(|unknown| Refusal::of(unknown, text, builder.line, &function.name))?;
         }
         block.instructions = builder.take();
     }
@@ -94,7 +96,8 @@ fn function(function: &mut Function, called: &mut Called, own: &HashSet<String>,
             }
         });
         if circle {
-            return Err(Unknown::new("a value that is made of itself").at(text, instruction.line, &function.name));
+            let unknown = Unknown::new("a value that is made of itself");
+            return Err(Refusal::of(unknown, text, instruction.line, &function.name));
         }
     }
     endless::mark(function);

@@ -2,9 +2,9 @@
 
 use super::builder::Builder;
 use super::{floats, integers};
-use crate::model::{Type, Typed};
-use crate::opcode::{Binary, IntPredicate};
-use crate::refusal::Unknown;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Type, Typed};
+use optix_llvm_ir::opcode::{Binary, IntPredicate};
 
 pub(super) fn lower(builder: &mut Builder<'_>, op: &str, arguments: &[Typed]) -> Result<Typed, Unknown> {
     // Sums and products of floats have a first value before the vector, and go from left to right.

@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use super::builder::FRESH;
-use crate::model::{Block, Function, Instruction, Op, Type, Typed, Value};
+use optix_llvm_ir::model::{Block, Function, Instruction, Op, Type, Typed, Value};
 
 /// The widest access of the machine.
 const MOST_BYTES: u64 = 16;

@@ -2,8 +2,8 @@
 //! bytes as `i48`.
 
 use super::builder::FRESH;
-use crate::model::{Callee, Function, Instruction, Op, Type, Typed, Value};
-use crate::opcode::Cast;
+use optix_llvm_ir::model::{Callee, Function, Instruction, Op, Type, Typed, Value};
+use optix_llvm_ir::opcode::Cast;
 
 /// The type that stands for one that can't be passed.
 fn passed(ty: &Type) -> Option<Type> {

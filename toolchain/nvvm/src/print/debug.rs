@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use crate::Dialect;
-use crate::model::{DebugNode, Module};
+use optix_llvm_ir::model::{DebugNode, Module};
 
 /// How many numbers of nodes are its own.
 pub(super) const NUMBERS: u64 = 4;

@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use super::{Printed, Printer, align, values};
 use crate::Dialect;
-use crate::model::{Call, Callee, Op, Type, Typed, Value};
-use crate::opcode::{Other, Predicate};
-use crate::refusal::Unknown;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Call, Callee, Op, Type, Typed, Value};
+use optix_llvm_ir::opcode::{Other, Predicate};
 
 impl Printer<'_> {
     /// The instruction without its result's name; what has to come before it is said.

@@ -10,9 +10,10 @@ use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 
 use super::Dialect;
-use super::model::{Argument, Function, Instruction, Module, Op, Variable};
-use super::refusal::{Refusal, Unknown};
+use super::refusal::Refusal;
 use debug::Debug;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Argument, Function, Instruction, Module, Op, Variable};
 
 /// NVVM's data layout, which rustc's agrees with.
 const LAYOUT: &str = "e-p:64:64:64-i1:8:8-i8:8:8-i16:16:16-i32:32:32-i64:64:64-i128:128:128-f32:32:32-f64:64:64-v16:16:16-\
@@ -35,10 +36,10 @@ pub(super) fn module(module: &Module, dialect: Dialect, text: &str) -> Result<St
         loops: HashMap::new(),
         before: HashSet::new(),
     };
-    printer.head().map_err(|unknown| unknown.at(text, usize::MAX, ""))?;
+    printer.head().map_err(|unknown| Refusal::of(unknown, text, usize::MAX, ""))?;
     for function in &module.functions {
         printer.line = function.line;
-        printer.function(function).map_err(|unknown| unknown.at(text, printer.line, &function.name))?;
+        printer.function(function).map_err(|unknown| Refusal::of(unknown, text, printer.line, &function.name))?;
     }
     printer.metadata();
     Ok(printer.out)

@@ -2,8 +2,8 @@
 
 use super::{Printed, Printer};
 use crate::Dialect;
-use crate::model::{Function, Type, Typed};
-use crate::refusal::Unknown;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Function, Type, Typed};
 
 impl Printer<'_> {
     pub(super) fn ty(&self, ty: &Type) -> String {

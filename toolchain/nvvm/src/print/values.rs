@@ -3,8 +3,8 @@
 use super::{Printed, Printer};
 use crate::Dialect;
 use crate::lower::FRESH;
-use crate::model::{Expression, Type, Typed, Value};
-use crate::refusal::Unknown;
+use optix_llvm_ir::Unknown;
+use optix_llvm_ir::model::{Expression, Type, Typed, Value};
 
 impl Printer<'_> {
     /// `i32 5`

@@ -1,10 +1,11 @@
-//! Mutated IR: whatever comes, it is translated or refused, without a panic.
+//! Mutated IR: whatever comes, it is translated or refused, and what is known of it is read, without a panic.
 //!
 //! `FUZZ_SECONDS=600 cargo test -p optix-nvvm --release --test translation fuzz -- --nocapture` runs longer than tests do.
 //! What is accepted by mistake is libNVVM's to refuse: this looks at the reader only.
 
 use std::time::{Duration, Instant};
 
+use optix_llvm_ir::{Origins, known, module};
 use optix_nvvm::{Dialect, translate};
 
 use super::accepted;
@@ -98,7 +99,15 @@ fn fuzz() {
         }
         let text = input.concat();
         let dialect = if random.below(4) == 0 { Dialect::Modern } else { Dialect::Llvm7 };
-        let result = std::panic::catch_unwind(|| translate(&text, dialect).is_ok());
+        let result = std::panic::catch_unwind(|| {
+            let known = known(&text);
+            let origins = Origins::new(&known);
+            known.instructions().for_each(|(function, instruction)| drop(origins.of(function, instruction)));
+            if let Ok(module) = module(&text) {
+                assert!(module == known, "what is known is read by both");
+            }
+            translate(&text, dialect).is_ok()
+        });
         accepted += u64::from(result.unwrap_or_else(|_| panic!("a panic for:\n{text}")));
         count += 1;
     }

@@ -3,7 +3,7 @@
 use super::{Parsed, Parser};
 use crate::lexer::Token;
 use crate::model::{Argument, Block, DebugNode, Function, Module, Type, Typed, Value, Variable};
-use crate::refusal::Unknown;
+use crate::unknown::Unknown;
 
 const LINKAGES: [&str; 11] = [
     "private",
@@ -38,68 +38,74 @@ impl Parser<'_, '_> {
     pub(super) fn module(&mut self) -> Parsed<Module> {
         self.read_groups()?;
         let mut module = Module::default();
-        loop {
-            match self.next() {
-                Token::End => return Ok(module),
-                Token::Word("source_filename") => {
-                    self.expect('=')?;
-                    self.text()?;
-                }
-                Token::Word("target") => {
-                    self.word()?;
-                    self.expect('=')?;
-                    self.text()?;
-                }
-                Token::Word("module") => {
-                    self.expect_word("asm")?;
-                    let line = self.text()?;
-                    module.asm.push(line);
-                }
-                Token::Word("attributes") => self.skip_group()?,
-                Token::Word("define") => {
-                    let function = self.function(true)?;
-                    module.functions.push(function);
-                    self.function.clear();
-                }
-                Token::Word("declare") => {
-                    let function = self.function(false)?;
-                    module.functions.push(function);
-                    self.function.clear();
-                }
-                Token::Comdat(_) => {
-                    self.expect('=')?;
-                    self.expect_word("comdat")?;
-                    self.word()?;
-                }
-                Token::Local(name) => {
-                    self.expect('=')?;
-                    self.expect_word("type")?;
-                    let ty = if self.eat_word("opaque") { None } else { Some(self.ty()?) };
-                    module.types.push((name.to_string(), ty));
-                }
-                Token::Global(name) => {
-                    let variable = self.variable(name)?;
-                    module.variables.push(variable);
-                }
-                Token::Metadata(name) => {
-                    self.expect('=')?;
-                    let distinct = self.eat_word("distinct");
-                    if let Token::Metadata(kind) = self.peek()
-                        && kind.starts_with("DI")
-                    {
-                        let node = self.debug_node()?;
-                        module.debug.insert(name.to_string(), node);
-                    } else {
-                        let text = self.metadata_node(distinct)?;
-                        module.metadata.insert(name.to_string(), text);
-                    }
-                }
-                _ => {
-                    self.at -= 1;
-                    return self.unexpected("a definition");
+        while self.peek() != Token::End {
+            let line = self.next_line();
+            let read = self.definition(&mut module);
+            self.or_skipped(read, line)?;
+            self.function.clear();
+        }
+        Ok(module)
+    }
+
+    fn definition(&mut self, module: &mut Module) -> Parsed<()> {
+        match self.next() {
+            Token::Word("source_filename") => {
+                self.expect('=')?;
+                self.text()?;
+            }
+            Token::Word("target") => {
+                self.word()?;
+                self.expect('=')?;
+                self.text()?;
+            }
+            Token::Word("module") => {
+                self.expect_word("asm")?;
+                let line = self.text()?;
+                module.asm.push(line);
+            }
+            Token::Word("attributes") => self.skip_group()?,
+            Token::Word("define") => {
+                let function = self.function(true)?;
+                module.functions.push(function);
+            }
+            Token::Word("declare") => {
+                let function = self.function(false)?;
+                module.functions.push(function);
+            }
+            Token::Comdat(_) => {
+                self.expect('=')?;
+                self.expect_word("comdat")?;
+                self.word()?;
+            }
+            Token::Local(name) => {
+                self.expect('=')?;
+                self.expect_word("type")?;
+                let ty = if self.eat_word("opaque") { None } else { Some(self.ty()?) };
+                module.types.push((name.to_string(), ty));
+            }
+            Token::Global(name) => {
+                let variable = self.variable(name)?;
+                module.variables.push(variable);
+            }
+            Token::Metadata(name) => {
+                self.expect('=')?;
+                let distinct = self.eat_word("distinct");
+                if let Token::Metadata(kind) = self.peek()
+                    && kind.starts_with("DI")
+                {
+                    let node = self.debug_node()?;
+                    module.debug.insert(name.to_string(), node);
+                } else {
+                    let text = self.metadata_node(distinct)?;
+                    module.metadata.insert(name.to_string(), text);
                 }
             }
+            _ => {
+                self.at -= 1;
+                return self.unexpected("a definition");
+            }
         }
+        Ok(())
     }
 
     /// `#5 = { .. }`, which was read before.
@@ -317,7 +323,7 @@ impl Parser<'_, '_> {
                 Token::Label(name) => {
                     self.at += 1;
                     if block.instructions.is_empty() {
-                        if !blocks.is_empty() {
+                        if !blocks.is_empty() && !self.lenient {
                             return Err(Unknown::new("a block without instructions"));
                         }
                         block.name = name.to_string();
@@ -335,8 +341,9 @@ impl Parser<'_, '_> {
                 }
                 Token::End => return self.unexpected("`}`"),
                 _ => {
-                    let instruction = self.instruction()?;
-                    block.instructions.push(instruction);
+                    let line = self.next_line();
+                    let read = self.instruction();
+                    block.instructions.extend(self.or_skipped(read, line)?);
                 }
             }
         }

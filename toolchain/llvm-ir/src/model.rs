@@ -9,7 +9,7 @@ use crate::opcode::{Atomic, Binary, Cast, Order, Predicate};
 
 /// A type. What LLVM has beyond these is refused by the parser.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Type {
+pub enum Type {
     Void,
     Label,
     Metadata,
@@ -59,7 +59,7 @@ impl Type {
 
 /// A value without its type.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Value {
+pub enum Value {
     Local(String),
     Global(String),
     /// An integer or a float as it was written, `true` or `false`.
@@ -82,6 +82,32 @@ impl Value {
         Self::Number(value.to_string())
     }
 
+    /// Calls `f` with the name of each function and variable in it.
+    pub fn globals<'v>(&'v self, f: &mut impl FnMut(&'v str)) {
+        match self {
+            Self::Global(name) => f(name),
+            Self::Aggregate(parts) => parts.iter().for_each(|part| part.value.globals(f)),
+            Self::Expression(expression) => match &**expression {
+                Expression::Cast { value, .. } => value.value.globals(f),
+                Expression::Address { base, indices, .. } => {
+                    base.value.globals(f);
+                    indices.iter().for_each(|index| index.value.globals(f));
+                }
+                Expression::Binary { a, b, .. } => {
+                    a.value.globals(f);
+                    b.value.globals(f);
+                }
+            },
+            Self::Local(_)
+            | Self::Number(_)
+            | Self::Null
+            | Self::Undef
+            | Self::Zero
+            | Self::Bytes(_)
+            | Self::Metadata(_) => {}
+        }
+    }
+
     /// The value of an integer constant.
     pub fn as_int(&self) -> Option<i128> {
         match self {
@@ -96,7 +122,7 @@ impl Value {
 
 /// A value with its type.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Typed {
+pub struct Typed {
     pub ty: Type,
     pub value: Value,
 }
@@ -113,7 +139,7 @@ impl Typed {
 
 /// A constant that is computed.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Expression {
+pub enum Expression {
     Cast { op: Cast, value: Typed, to: Type },
     Address { inbounds: bool, of: Type, base: Typed, indices: Vec<Typed> },
     Binary { op: Binary, a: Typed, b: Typed },
@@ -121,18 +147,18 @@ pub(super) enum Expression {
 
 /// How memory is ordered around an atomic operation, and for whom.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Ordering {
+pub struct Ordering {
     pub order: Order,
     /// `syncscope("..")`; empty for the system.
     pub scope: String,
 }
 
 /// What a call or a function may do, and may be done with it, in LLVM 7's words.
-pub(super) type Attributes = Vec<String>;
+pub type Attributes = Vec<String>;
 
 /// An argument or a parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Argument {
+pub struct Argument {
     pub value: Typed,
     pub attributes: Attributes,
     /// A copy is passed of what the pointer points to.
@@ -141,13 +167,13 @@ pub(super) struct Argument {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Callee {
+pub enum Callee {
     Function(Value),
     Asm { text: String, constraints: String, side_effect: bool },
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Call {
+pub struct Call {
     pub tail: bool,
     pub flags: Vec<String>,
     pub result: Type,
@@ -164,7 +190,7 @@ impl Call {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Op {
+pub enum Op {
     Binary { op: Binary, flags: Vec<String>, a: Typed, b: Value },
     Negate { value: Typed },
     Freeze { value: Typed },
@@ -192,48 +218,64 @@ pub(super) enum Op {
     Unreachable,
 }
 
+/// Calls `$f` with each value of the instruction `$op`, by a reference or one that is `mut`.
+macro_rules! each_value {
+    ($op:expr, $f:expr $(, $mut:tt)?) => {
+        match $op {
+            Op::Binary { a, b, .. } | Op::Compare { a, b, .. } => {
+                $f(&$($mut)? a.value);
+                $f(b);
+            }
+            Op::Negate { value } | Op::Freeze { value } | Op::Cast { value, .. } => $f(&$($mut)? value.value),
+            Op::Select { condition, yes, no } => [condition, yes, no].into_iter().for_each(|v| $f(&$($mut)? v.value)),
+            Op::Phi { incoming, .. } => incoming.into_iter().for_each(|(value, _)| $f(value)),
+            Op::Load { pointer, .. } => $f(&$($mut)? pointer.value),
+            Op::Store { value, pointer, .. } | Op::ReadModifyWrite { value, pointer, .. } => {
+                $f(&$($mut)? value.value);
+                $f(&$($mut)? pointer.value);
+            }
+            Op::Address { base, indices, .. } => {
+                $f(&$($mut)? base.value);
+                indices.into_iter().for_each(|index| $f(&$($mut)? index.value));
+            }
+            Op::Alloca { count, .. } => count.into_iter().for_each(|count| $f(&$($mut)? count.value)),
+            Op::ExtractValue { aggregate, .. } => $f(&$($mut)? aggregate.value),
+            Op::InsertValue { aggregate, value, .. } => {
+                [aggregate, value].into_iter().for_each(|v| $f(&$($mut)? v.value));
+            }
+            Op::ExtractElement { vector, index } => {
+                [vector, index].into_iter().for_each(|v| $f(&$($mut)? v.value));
+            }
+            Op::InsertElement { vector, value, index } => {
+                [vector, value, index].into_iter().for_each(|v| $f(&$($mut)? v.value));
+            }
+            Op::Shuffle { a, b, .. } => [a, b].into_iter().for_each(|v| $f(&$($mut)? v.value)),
+            Op::CompareExchange { pointer, expected, new, .. } => {
+                [pointer, expected, new].into_iter().for_each(|v| $f(&$($mut)? v.value));
+            }
+            Op::Call(call) => {
+                if let Callee::Function(function) = &$($mut)? call.callee {
+                    $f(function);
+                }
+                (&$($mut)? call.arguments).into_iter().for_each(|argument| $f(&$($mut)? argument.value.value));
+            }
+            Op::Return(value) => value.into_iter().for_each(|value| $f(&$($mut)? value.value)),
+            Op::Branch { condition, .. } => $f(condition),
+            Op::Switch { value, .. } => $f(&$($mut)? value.value),
+            Op::Jump(_) | Op::Fence(_) | Op::Unreachable => {}
+        }
+    };
+}
+
 impl Op {
     /// Calls `f` with each value that it uses.
+    pub fn values<'v>(&'v self, f: &mut impl FnMut(&'v Value)) {
+        each_value!(self, f);
+    }
+
+    /// Calls `f` with each value that it uses, which it may change.
     pub fn values_mut(&mut self, f: &mut impl FnMut(&mut Value)) {
-        match self {
-            Self::Binary { a, b, .. } | Self::Compare { a, b, .. } => {
-                f(&mut a.value);
-                f(b);
-            }
-            Self::Negate { value } | Self::Freeze { value } | Self::Cast { value, .. } => f(&mut value.value),
-            Self::Select { condition, yes, no } => [condition, yes, no].into_iter().for_each(|v| f(&mut v.value)),
-            Self::Phi { incoming, .. } => incoming.iter_mut().for_each(|(value, _)| f(value)),
-            Self::Load { pointer, .. } => f(&mut pointer.value),
-            Self::Store { value, pointer, .. } | Self::ReadModifyWrite { value, pointer, .. } => {
-                f(&mut value.value);
-                f(&mut pointer.value);
-            }
-            Self::Address { base, indices, .. } => {
-                f(&mut base.value);
-                indices.iter_mut().for_each(|index| f(&mut index.value));
-            }
-            Self::Alloca { count, .. } => count.iter_mut().for_each(|count| f(&mut count.value)),
-            Self::ExtractValue { aggregate, .. } => f(&mut aggregate.value),
-            Self::InsertValue { aggregate, value, .. } => [aggregate, value].into_iter().for_each(|v| f(&mut v.value)),
-            Self::ExtractElement { vector, index } => [vector, index].into_iter().for_each(|v| f(&mut v.value)),
-            Self::InsertElement { vector, value, index } => {
-                [vector, value, index].into_iter().for_each(|v| f(&mut v.value));
-            }
-            Self::Shuffle { a, b, .. } => [a, b].into_iter().for_each(|v| f(&mut v.value)),
-            Self::CompareExchange { pointer, expected, new, .. } => {
-                [pointer, expected, new].into_iter().for_each(|v| f(&mut v.value));
-            }
-            Self::Call(call) => {
-                if let Callee::Function(function) = &mut call.callee {
-                    f(function);
-                }
-                call.arguments.iter_mut().for_each(|argument| f(&mut argument.value.value));
-            }
-            Self::Return(value) => value.iter_mut().for_each(|value| f(&mut value.value)),
-            Self::Branch { condition, .. } => f(condition),
-            Self::Switch { value, .. } => f(&mut value.value),
-            Self::Jump(_) | Self::Fence(_) | Self::Unreachable => {}
-        }
+        each_value!(self, f, mut);
     }
 
     /// The blocks that come next.
@@ -250,7 +292,7 @@ impl Op {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Instruction {
+pub struct Instruction {
     pub result: Option<String>,
     pub op: Op,
     /// What hangs on it, as `("range", "!5")`.
@@ -260,14 +302,14 @@ pub(super) struct Instruction {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Block {
+pub struct Block {
     pub name: String,
     pub instructions: Vec<Instruction>,
 }
 
 /// A function; a declaration has no blocks.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Function {
+pub struct Function {
     pub name: String,
     pub linkage: Option<String>,
     pub kernel: bool,
@@ -283,7 +325,7 @@ pub(super) struct Function {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Variable {
+pub struct Variable {
     pub name: String,
     pub linkage: Option<String>,
     pub unnamed_address: bool,
@@ -296,7 +338,7 @@ pub(super) struct Variable {
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Module {
+pub struct Module {
     /// The lines of `module asm`, with their escapes.
     pub asm: Vec<String>,
     /// Named types; one without fields is opaque.
@@ -311,11 +353,20 @@ pub(super) struct Module {
 
 /// What debug information says in one place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct DebugNode {
+pub struct DebugNode {
     /// `DILocation`
     pub kind: String,
     /// Name and text: `("line", "12")`, `("scope", "!5")`.
     pub fields: Vec<(String, String)>,
+}
+
+impl Module {
+    /// Every instruction, with the function that it is in.
+    pub fn instructions(&self) -> impl Iterator<Item = (&Function, &Instruction)> {
+        let blocks =
+            self.functions.iter().flat_map(|function| function.blocks.iter().map(move |block| (function, block)));
+        blocks.flat_map(|(function, block)| block.instructions.iter().map(move |instruction| (function, instruction)))
+    }
 }
 
 impl DebugNode {

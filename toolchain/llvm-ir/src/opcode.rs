@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::refusal::Unknown;
+use crate::unknown::Unknown;
 
 /// An enumeration of words. Where a variant has several, the first is the one that is printed.
 macro_rules! words {

@@ -1,6 +1,7 @@
 //! The text of LLVM IR to a [`Module`].
 //!
-//! It reads what LLVM 17 and later print. A word that it does not know is a refusal, never skipped.
+//! It reads what LLVM 17 and later print. A word that it does not know is refused or, in [`known`], left out with the
+//! instruction or definition that it is in.
 
 mod attributes;
 mod instructions;
@@ -12,21 +13,31 @@ use std::collections::HashMap;
 
 use super::lexer::{Token, tokens};
 use super::model::{Attributes, Module};
-use super::refusal::{Refusal, Unknown};
+use super::unknown::{Refused, Unknown};
 
 type Parsed<T> = Result<T, Unknown>;
 
 /// Reads a module.
-pub(super) fn module(text: &str) -> Result<Module, Refusal> {
-    let tokens = tokens(text).map_err(|(unknown, line)| unknown.at(text, line, ""))?;
-    let mut parser = Parser { tokens: &tokens, at: 0, groups: HashMap::new(), function: String::new(), depth: 0 };
-    parser.module().map_err(|unknown| unknown.at(text, parser.line(), &parser.function))
+pub fn module(text: &str) -> Result<Module, Refused> {
+    let refused = |(unknown, line)| Refused { unknown, line, function: String::new() };
+    let tokens = tokens(text).map_err(refused)?;
+    let mut parser = Parser::new(&tokens, false);
+    parser.module().map_err(|unknown| Refused { unknown, line: parser.line(), function: parser.function })
+}
+
+/// Reads what it knows of a module. Definitions and instructions that it does not know are left out; nothing is read of
+/// a text that is not even made of LLVM's words.
+pub fn known(text: &str) -> Module {
+    let Ok(tokens) = tokens(text) else { return Module::default() };
+    Parser::new(&tokens, true).module().unwrap_or_default()
 }
 
 struct Parser<'t, 'a> {
     tokens: &'t [(Token<'a>, usize)],
     at: usize,
     groups: HashMap<&'a str, Attributes>,
+    /// Whether what it does not know is left out.
+    lenient: bool,
     /// The symbol of the function that is being read.
     function: String,
     /// How deep types and constants are nested.
@@ -36,7 +47,26 @@ struct Parser<'t, 'a> {
 /// Deeper nesting is no compiler's.
 const DEEPEST: u32 = 64;
 
-impl<'a> Parser<'_, 'a> {
+impl<'t, 'a> Parser<'t, 'a> {
+    fn new(tokens: &'t [(Token<'a>, usize)], lenient: bool) -> Self {
+        Self { tokens, at: 0, groups: HashMap::new(), lenient, function: String::new(), depth: 0 }
+    }
+
+    /// What was read, or nothing if it begins in the line `line` with something that is not known and is left out: then
+    /// the next line comes next.
+    fn or_skipped<T>(&mut self, read: Parsed<T>, line: usize) -> Parsed<Option<T>> {
+        match read {
+            Err(_) if self.lenient => {
+                let last = line.max(self.line());
+                while self.peek() != Token::End && self.next_line() <= last {
+                    self.at += 1;
+                }
+                Ok(None)
+            }
+            read => read.map(Some),
+        }
+    }
+
     fn peek(&self) -> Token<'a> {
         self.peek_at(0)
     }

@@ -4,7 +4,7 @@ use super::{Parsed, Parser};
 use crate::lexer::Token;
 use crate::model::{Expression, Type, Typed, Value};
 use crate::opcode::{Binary, Cast};
-use crate::refusal::Unknown;
+use crate::unknown::Unknown;
 
 impl Parser<'_, '_> {
     pub(super) fn typed(&mut self) -> Parsed<Typed> {

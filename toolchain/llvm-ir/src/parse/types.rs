@@ -3,7 +3,7 @@
 use super::{Parsed, Parser};
 use crate::lexer::Token;
 use crate::model::Type;
-use crate::refusal::Unknown;
+use crate::unknown::Unknown;
 
 /// Vectors longer than this are written out by nobody; arrays may be as long as they like.
 const LONGEST_VECTOR: u64 = 256;

@@ -1,6 +1,6 @@
 //! The words of LLVM IR.
 
-use super::refusal::Unknown;
+use super::unknown::Unknown;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Token<'a> {

@@ -5,7 +5,7 @@ use super::{Parsed, Parser};
 use crate::lexer::Token;
 use crate::model::{Argument, Call, Callee, Instruction, Op, Ordering, Type, Typed, Value};
 use crate::opcode::{Atomic, FloatPredicate, IntPredicate, Opcode, Order, Other, Predicate};
-use crate::refusal::Unknown;
+use crate::unknown::Unknown;
 
 /// Flags of integer arithmetic that LLVM 7 knows.
 const INTEGER_FLAGS: [&str; 3] = ["nuw", "nsw", "exact"];

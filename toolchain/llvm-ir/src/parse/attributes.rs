@@ -6,7 +6,7 @@
 use super::{Parsed, Parser};
 use crate::lexer::Token;
 use crate::model::{Attributes, Type};
-use crate::refusal::Unknown;
+use crate::unknown::Unknown;
 
 /// Attributes of functions that are kept.
 const OF_FUNCTIONS: [&str; 8] =
@@ -36,8 +36,9 @@ impl<'a> Parser<'_, 'a> {
                 self.at = at + 2;
                 self.expect('=')?;
                 self.expect('{')?;
-                let words = self.function_attributes()?;
-                self.expect('}')?;
+                let line = self.line();
+                let read = self.function_attributes().and_then(|words| self.expect('}').map(|()| words));
+                let words = self.or_skipped(read, line)?.unwrap_or_default();
                 self.groups.insert(name, words);
             }
         }
