@@ -9,26 +9,30 @@
 
 mod affine;
 mod backend;
+pub mod build;
 pub mod cpu;
 #[cfg(feature = "cust")]
 #[cfg_attr(docsrs, doc(cfg(feature = "cust")))]
 pub mod cust;
 mod device;
 mod error;
+mod launch;
 pub mod optix;
 pub mod pipeline;
 mod plan;
 pub mod sbt;
 pub mod scene;
 
+pub use build::Scene;
 pub use device::{BackendKind, Device};
 pub use error::{Error, Result};
 pub use glam;
+pub use launch::Launch;
 pub use optix::OptixOptions;
 pub use optix_device_rs::host::{Buffer, Buffer2d, InstanceTable, MemoryError, TriangleTable, World};
 pub use optix_report as report;
-pub use pipeline::{Launch, Pipeline, PipelineBuilder};
-pub use scene::{Aabb, Accel, Boxes, Geometry, Instance, Material, Scene, TriangleMesh};
+pub use pipeline::{Pipeline, PipelineBuilder};
+pub use scene::{Aabb, Accel, Boxes, Geometry, Instance, Material, TriangleMesh};
 
 /// The PTX of a shader crate that the build script compiled with `optix_toolchain::shaders`; the crate is named as in
 /// Rust paths. Empty where no device compiler was found.

@@ -1,29 +1,30 @@
-//! Pipelines: specialised to a scene, built for a device, launched.
+//! Pipelines: specialised to a scene, and linked for its device.
 
 pub use crate::plan::{Explanation, Note};
 
-use crate::backend::{Linked, Running};
+use crate::backend::Linked;
+use crate::build::Scene;
 use crate::plan::{BoundValue, Plan};
 use crate::sbt::ShaderBindingTable;
-use crate::scene::{AccelShared, CallableShared, Scene};
+use crate::scene::{AccelShared, CallableShared};
 use crate::{BackendKind, Device, Error, Result};
 use optix_device_rs::data::DeviceData;
-use optix_device_rs::host::{KeepAlive, Kept, Twin};
-use optix_device_rs::params::{Bound, LaunchParams};
-use optix_device_rs::pipeline::{HasRayGen, Pipeline as PipelineType};
+use optix_device_rs::host::Kept;
+use optix_device_rs::params::Bound;
+use optix_device_rs::pipeline::Pipeline as PipelineType;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// A pipeline of type `P`, specialised to a scene and ready to launch on its device.
 pub struct Pipeline<P> {
-    linked: Box<dyn Linked>,
-    plan: Arc<Plan>,
-    device: Device,
+    pub(crate) linked: Box<dyn Linked>,
+    pub(crate) plan: Arc<Plan>,
+    pub(crate) device: Device,
     scene: u64,
     slots: u32,
     callables: u32,
     /// What the records' views point to.
-    records: Vec<Kept>,
+    pub(crate) records: Vec<Kept>,
     pipeline: PhantomData<fn(P)>,
 }
 
@@ -40,55 +41,8 @@ impl<P: PipelineType> Pipeline<P> {
         PipelineBuilder { scene, ptx: None, bound: Vec::new() }
     }
 
-    /// Launches the first ray-generation program over `dimensions` (width, height, depth; at most 2^30 in all).
-    ///
-    /// The launch runs on; what it writes is read after it by order of the device's work, and what it uses is kept alive.
-    pub fn launch(&self, params: &<P::Params as LaunchParams>::Host, dimensions: [u32; 3]) -> Result<Launch> {
-        self.begin(0, params, dimensions)
-    }
-
-    /// Launches ray-generation program `Prog`; see [`Pipeline::launch`].
-    pub fn launch_program<Prog>(
-        &self,
-        params: &<P::Params as LaunchParams>::Host,
-        dimensions: [u32; 3],
-    ) -> Result<Launch>
-    where
-        P: HasRayGen<Prog>,
-    {
-        self.begin(<P as HasRayGen<Prog>>::INDEX as usize, params, dimensions)
-    }
-
-    fn begin(&self, raygen: usize, params: &<P::Params as LaunchParams>::Host, dimensions: [u32; 3]) -> Result<Launch> {
-        let error = |what: String| Error::Launch { pipeline: self.plan.description.name, what };
-        let size = dimensions.iter().map(|&d| u128::from(d)).product::<u128>();
-        let [w, h, d] = dimensions;
-        if size == 0 {
-            return Err(error(format!("its dimensions {w} x {h} x {d} are empty")));
-        }
-        if size > 1 << 30 {
-            return Err(error(format!("its dimensions {w} x {h} x {d} are more than 2^30 (guide 12)")));
-        }
-        // SAFETY: the launch that is given the views keeps the owners.
-        let mut keep = unsafe { KeepAlive::new() };
-        let device_params = params.lower(&mut keep);
-        if let Some(kept) = keep.foreign(self.device.backend.id()) {
-            return Err(error(format!("its parameters hold {} of another device", kept.kind())));
-        }
-        keep.kept().iter().try_for_each(|kept| self.check("its parameters hold", kept)).map_err(error)?;
-        let mut bytes = vec![0; size_of::<P::Params>()];
-        device_params.write_to(&mut bytes);
-        for bound in &self.plan.bound {
-            bound.check(&bytes).map_err(error)?;
-        }
-        let running = self.linked.launch(raygen, &bytes, keep.kept(), dimensions)?;
-        let mut kept = keep.into_kept();
-        kept.extend(self.records.iter().cloned());
-        Ok(Launch { running, done: false, _keep: kept })
-    }
-
     /// Whether this pipeline's programs may use what its parameters or a record hold: its table and its flags cover that.
-    fn check(&self, holder: &str, kept: &Kept) -> Result<(), String> {
+    pub(crate) fn check(&self, holder: &str, kept: &Kept) -> Result<(), String> {
         let (made, more) = match kept {
             Kept::Traced(world) => {
                 (world.scene::<AccelShared>().map(|accel| (accel.scene, accel.slots > self.slots)), "materials")
@@ -164,30 +118,5 @@ impl<'s, P: PipelineType> PipelineBuilder<'s, P> {
         let checked = pipeline.records.iter().try_for_each(|kept| pipeline.check("a record holds", kept));
         checked.map_err(|what| Error::Pipeline { pipeline: P::DESCRIPTION.name, what })?;
         Ok(pipeline)
-    }
-}
-
-/// A launch under way; it keeps alive what it uses. Dropping it waits for its end.
-#[must_use = "a launch that is dropped is waited for, and its errors are lost"]
-pub struct Launch {
-    running: Box<dyn Running>,
-    done: bool,
-    _keep: Vec<Kept>,
-}
-
-impl Launch {
-    /// Waits until the launch is done, and says what went wrong in it.
-    pub fn wait(mut self) -> Result<()> {
-        self.done = true;
-        self.running.wait()
-    }
-}
-
-impl Drop for Launch {
-    fn drop(&mut self) {
-        if !self.done {
-            // An error has nobody to go to here; `wait` is the way to hear of it.
-            let _ = self.running.wait();
-        }
     }
 }

@@ -3,10 +3,10 @@
 use super::kernel::{self, AabbInput, Accel, Gas, GeometryFlags, Ias, Instance, SbtMapping, TriangleInput};
 use super::machine::{self, Callables, Job, Reached};
 use super::memory::CpuMemory;
-use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, IasInput, Linked, Running, next_device_id};
+use crate::backend::{Backend, Linked, Running, next_device_id};
 use crate::plan::Plan;
 use crate::sbt::ShaderBindingTable;
-use crate::scene::GeometryData;
+use crate::scene::{BuildInput, BuiltAccel, GasInput, GeometryData, IasInput};
 use crate::{Error, Result};
 use optix_device_rs::host::{DeviceId, GeometryKind, Handle, Kept, Memory};
 use std::any::Any;

@@ -7,10 +7,10 @@ use super::driver::{
     SbtSections, ShaderBindingTable as DeviceTable, Source, TraversableGraph, TriangleInput, stack::CallDepths,
 };
 use super::{OptixOptions, feedback};
-use crate::backend::{Backend, BuildInput, BuiltAccel, GasInput, IasInput, Linked, Running, next_device_id};
+use crate::backend::{Backend, Linked, Running, next_device_id};
 use crate::plan::{Graph, Plan};
 use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
-use crate::scene::GeometryData;
+use crate::scene::{BuildInput, BuiltAccel, GasInput, GeometryData, IasInput};
 use crate::{Error, Result};
 use optix_device_rs::host::{self as device, DeviceId, GeometryKind, Kept, Memory, MemoryError};
 use std::collections::HashMap;

@@ -1,12 +1,9 @@
 //! Callables with the data of their records (guide 15).
 
-use super::{RecordData, Scene, numbered};
-use crate::{Error, Result};
-use optix_device_rs::host::{CallableRecord, CallableTable};
-use optix_device_rs::pipeline::{HasCallable, Pipeline};
-use optix_device_rs::record::SbtRecord;
-use std::any::Any;
-use std::sync::Arc;
+use super::{RecordData, SceneState, numbered};
+use crate::Result;
+use optix_device_rs::host::CallableRecord;
+use std::ops::Range;
 
 /// A record of a callable as the scene keeps it.
 #[derive(Clone)]
@@ -24,52 +21,22 @@ pub(crate) struct CallableShared {
     pub end: u32,
 }
 
-impl<P: Pipeline> Scene<P> {
-    /// Adds a record of callable `Prog`: `scene.callable::<wood>(Wood { .. })`. What comes back is a field of records and
-    /// launch parameters.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] for a record that holds what another device or scene made.
-    pub fn callable<Prog>(
-        &mut self,
-        record: <P::Record as SbtRecord>::Host,
-    ) -> Result<CallableRecord<P::Signature, P::Kind>>
-    where
-        P: HasCallable<Prog>,
-    {
-        let record = self.lower(&record)?;
-        let program = <P as HasCallable<Prog>>::INDEX as usize;
-        let (number, shared) = self.push(vec![CallableState { program, number: 0, record }])?;
-        // SAFETY: the record is of a program with this signature and kind (`HasCallable`), and records are never taken
-        // away; launches compare the scene.
-        Ok(unsafe { CallableRecord::new(number, self.device.backend.id(), shared) })
+impl SceneState {
+    /// The record of this callable; none if it is of another scene.
+    pub(crate) fn callable<F, K>(&self, callable: &CallableRecord<F, K>) -> Option<&CallableState> {
+        let shared = callable.owner::<CallableShared>().filter(|shared| shared.scene == self.id)?;
+        self.callables.get(shared.end as usize - 1)
     }
 
-    /// Makes a table of callables, which programs choose from by number. A callable may be in any number of tables, and
-    /// several times in one.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] for a callable of another scene.
-    pub fn callables<F, K>(&mut self, callables: &[CallableRecord<F, K>]) -> Result<CallableTable<F, K>> {
-        let state = |callable: &CallableRecord<F, K>| {
-            let shared = callable.owner::<CallableShared>().filter(|shared| shared.scene == self.state.id)?;
-            Some(self.state.callables[shared.end as usize - 1].clone())
-        };
-        let states = callables.iter().map(state).collect::<Option<Vec<_>>>().ok_or_else(|| {
-            Error::Scene("a table of callables holds one of another scene; make it with this scene".into())
-        })?;
-        let len = numbered(states.len(), "callables")?;
-        let (first, shared) = self.push(states)?;
-        // SAFETY: copies of records of programs with this signature and kind; otherwise as above.
-        Ok(unsafe { CallableTable::new(first, len, self.device.backend.id(), shared) })
+    /// The indices that so many more records of callables will have.
+    pub(crate) fn next_callables(&self, count: usize) -> Result<Range<u32>> {
+        let first = numbered(self.callables.len(), "callables")?;
+        Ok(first..numbered(self.callables.len().saturating_add(count), "callables")?)
     }
 
-    /// Adds records, and numbers them one after the other: the first number, and what tells launches whose they are.
-    fn push(&mut self, states: Vec<CallableState>) -> Result<(u32, Arc<dyn Any + Send + Sync>)> {
-        let index = numbered(self.state.callables.len(), "callables")?;
-        let end = numbered(self.state.callables.len().saturating_add(states.len()), "callables")?;
-        let first = self.device.backend.number_callables(index, end - index)?;
-        self.state.callables.extend((first..).zip(states).map(|(number, state)| CallableState { number, ..state }));
-        Ok((first, Arc::new(CallableShared { scene: self.state.id, end })))
+    /// Adds records, and numbers them from `first` on: what tells launches whose they are.
+    pub(crate) fn add_callables(&mut self, first: u32, states: Vec<CallableState>) -> CallableShared {
+        self.callables.extend((first..).zip(states).map(|(number, state)| CallableState { number, ..state }));
+        CallableShared { scene: self.id, end: self.callables.len() as u32 }
     }
 }

@@ -1,10 +1,10 @@
 //! Geometry: triangles and boxes, checked when they are given.
 
-use super::{GasMember, Material, Scene};
-use crate::error::{GeometryError, Result};
+use super::{GasMember, Material};
+use crate::error::GeometryError;
 use glam::Vec3;
 use optix_device_rs::attributes::{Custom, Geometry as GeometryKindOf, Triangles};
-use optix_device_rs::pipeline::{HasHitGroup, Pipeline};
+use optix_device_rs::pipeline::HasHitGroup;
 use optix_device_rs::record::SbtRecord;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -136,15 +136,13 @@ fn counted(what: &'static str, data: GeometryData) -> Result<GeometryDataToken, 
     }
 }
 
-impl<P: Pipeline> Scene<P> {
-    /// Checks and copies geometry: [`TriangleMesh`] or [`Boxes`].
-    pub fn geometry<I: IntoGeometry>(&mut self, geometry: I) -> Result<Geometry<I::Kind>> {
-        let GeometryDataToken(data) = geometry.check()?;
-        Ok(Geometry { data: Arc::new(data), kind: PhantomData })
-    }
-}
-
 impl<G: GeometryKindOf> Geometry<G> {
+    /// Checks and copies what was given.
+    pub(crate) fn of(geometry: impl IntoGeometry<Kind = G>) -> Result<Self, GeometryError> {
+        let GeometryDataToken(data) = geometry.check()?;
+        Ok(Self { data: Arc::new(data), kind: PhantomData })
+    }
+
     /// This geometry with one material for all its primitives.
     pub fn with<P, Rec: SbtRecord>(&self, material: &Material<P, Rec>) -> GasMember<P, G>
     where

@@ -1,9 +1,9 @@
 //! Materials: a record that a hit group of the pipeline reads.
 
-use super::{RecordData, Scene, numbered};
+use super::{RecordData, SceneState, numbered};
 use crate::Result;
 use optix_device_rs::attributes::Geometry as GeometryKindOf;
-use optix_device_rs::pipeline::{HasHitGroup, Pipeline};
+use optix_device_rs::pipeline::HasHitGroup;
 use optix_device_rs::record::SbtRecord;
 use std::marker::PhantomData;
 
@@ -26,16 +26,12 @@ pub(crate) struct MaterialState {
     pub record: RecordData,
 }
 
-impl<P: Pipeline> Scene<P> {
-    /// Adds a material; `record` is the record struct, or its host twin where it holds views.
-    pub fn material<H>(&mut self, record: H) -> Result<Material<P, H::Device>>
-    where
-        H: optix_device_rs::host::Twin<Device: SbtRecord<Host = H>>,
-    {
-        let record = self.lower(&record)?;
-        let index = numbered(self.state.materials.len(), "materials")?;
-        self.state.materials.push(MaterialState { record });
-        Ok(Material { scene: self.state.id, index, types: PhantomData })
+impl SceneState {
+    /// Adds a material with this record.
+    pub(crate) fn add_material<P, Rec>(&mut self, record: RecordData) -> Result<Material<P, Rec>> {
+        let index = numbered(self.materials.len(), "materials")?;
+        self.materials.push(MaterialState { record });
+        Ok(Material { scene: self.id, index, types: PhantomData })
     }
 }
 

@@ -1,43 +1,40 @@
-//! Scenes: geometry, materials and the acceleration structures that bring them together, built through the trait `Backend`.
+//! What scenes are made of: geometry, materials and the acceleration structures that bring them together. All is described and
+//! checked here, for any machine; [`Scene`](crate::Scene) builds it on one.
 
 mod accel;
 mod callable;
 mod flags;
+mod gas;
 mod geometry;
+mod ias;
+mod input;
 mod material;
 
 pub use crate::error::GeometryError;
+pub use accel::Accel;
 pub(crate) use accel::AccelShared;
-pub use accel::{Accel, GasBuilder, GasMember, IasBuilder, Instance};
 pub(crate) use callable::{CallableShared, CallableState};
 pub use flags::InstanceFlags;
-pub(crate) use geometry::GeometryData;
+pub use gas::GasMember;
 pub use geometry::{Aabb, Boxes, Geometry, TriangleMesh};
+pub(crate) use geometry::{GeometryData, IntoGeometry};
+pub use ias::Instance;
+pub(crate) use input::{BuildInput, BuiltAccel, GasInput, IasInput, InstanceInput};
 pub use material::Material;
 pub(crate) use material::MaterialState;
 
-use crate::{Device, Error, Result};
+use crate::{Error, Result};
 use optix_device_rs::data::DeviceData;
-use optix_device_rs::host::{GeometryKind, KeepAlive, Kept, Twin};
-use optix_device_rs::payload::Payload;
-use optix_device_rs::pipeline::{HasException, HasRay, HasRayGen, Pipeline};
-use optix_device_rs::record::SbtRecord;
+use optix_device_rs::host::{DeviceId, GeometryKind, KeepAlive, Kept, PipelineDescription, Twin};
 use std::collections::HashMap;
-use std::marker::PhantomData;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
-/// A scene for pipeline `P`: it holds the records of the shader binding table and builds acceleration structures.
-pub struct Scene<P> {
-    pub(crate) device: Device,
-    pub(crate) state: SceneState,
-    pipeline: PhantomData<fn(P)>,
-}
-
-/// The backend-free content of a scene.
+/// The content of a scene.
 pub(crate) struct SceneState {
     /// Unique in the process.
     pub id: u64,
+    pub device: DeviceId,
     pub materials: Vec<MaterialState>,
     /// Hit records in the order of the table, one per material use; each stands for one record per ray type.
     pub slots: Vec<Slot>,
@@ -75,80 +72,6 @@ pub(crate) struct RecordData {
     pub keep: Vec<Kept>,
 }
 
-impl<P: Pipeline> Scene<P> {
-    /// An empty scene on a device.
-    pub fn new(device: &Device) -> Self {
-        static NEXT: AtomicU64 = AtomicU64::new(1);
-        let description = P::DESCRIPTION;
-        // A record without data needs no giving.
-        let record = |size: usize| RecordData { bytes: (size == 0).then(Vec::new), keep: Vec::new() };
-        Self {
-            device: device.clone(),
-            state: SceneState {
-                id: NEXT.fetch_add(1, Ordering::Relaxed),
-                materials: Vec::new(),
-                slots: Vec::new(),
-                slots_of: HashMap::new(),
-                miss: description.rays.iter().map(|ray| record(ray.miss.map_or(0, |m| m.record.size))).collect(),
-                raygen: description.raygen.iter().map(|rg| record(rg.record.size)).collect(),
-                callables: Vec::new(),
-                exception: record(description.exceptions.program.map_or(0, |program| program.record.size)),
-                usage: Usage::default(),
-            },
-            pipeline: PhantomData,
-        }
-    }
-
-    /// Gives the record of the miss program of rays `R`.
-    pub fn miss<R: Payload>(&mut self, record: <P::MissRecord as SbtRecord>::Host) -> Result<()>
-    where
-        P: HasRay<R>,
-    {
-        self.state.miss[<P as HasRay<R>>::INDEX as usize] = self.lower(&record)?;
-        Ok(())
-    }
-
-    /// Gives the record of ray-generation program `Prog`.
-    pub fn raygen<Prog>(&mut self, record: <P::Record as SbtRecord>::Host) -> Result<()>
-    where
-        P: HasRayGen<Prog>,
-    {
-        self.state.raygen[<P as HasRayGen<Prog>>::INDEX as usize] = self.lower(&record)?;
-        Ok(())
-    }
-
-    /// Gives the record of the exception program.
-    pub fn exception(&mut self, record: <P::Record as SbtRecord>::Host) -> Result<()>
-    where
-        P: HasException,
-    {
-        self.state.exception = self.lower(&record)?;
-        Ok(())
-    }
-
-    /// A record's device bytes, after a check that what it points to is on this scene's device.
-    pub(crate) fn lower<T: Twin>(&self, record: &T) -> Result<RecordData> {
-        // SAFETY: the record keeps the owners beside the bytes.
-        let mut keep = unsafe { KeepAlive::new() };
-        let device_data = record.lower(&mut keep);
-        if let Some(kept) = keep.foreign(self.device.backend.id()) {
-            return Err(Error::Scene(format!(
-                "a record holds {kind} of another device; make it with this scene's device",
-                kind = kept.kind()
-            )));
-        }
-        if let Some(kept) = keep.kept().iter().find(|kept| scene_of(kept).is_some_and(|scene| scene != self.state.id)) {
-            return Err(Error::Scene(format!(
-                "a record holds {kind} of another scene, whose records are in another table; make it with this scene",
-                kind = kept.kind()
-            )));
-        }
-        let mut bytes = vec![0; size_of::<T::Device>()];
-        device_data.write_to(&mut bytes);
-        Ok(RecordData { bytes: Some(bytes), keep: keep.into_kept() })
-    }
-}
-
 /// Whose table the programs need that are reached through this; none if they need none.
 fn scene_of(kept: &Kept) -> Option<u64> {
     match kept {
@@ -159,6 +82,47 @@ fn scene_of(kept: &Kept) -> Option<u64> {
 }
 
 impl SceneState {
+    /// A scene without content, for a pipeline with this description, on this device.
+    pub(crate) fn new(description: &PipelineDescription, device: DeviceId) -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(1);
+        // A record without data needs no giving.
+        let record = |size: usize| RecordData { bytes: (size == 0).then(Vec::new), keep: Vec::new() };
+        Self {
+            id: NEXT.fetch_add(1, Ordering::Relaxed),
+            device,
+            materials: Vec::new(),
+            slots: Vec::new(),
+            slots_of: HashMap::new(),
+            miss: description.rays.iter().map(|ray| record(ray.miss.map_or(0, |m| m.record.size))).collect(),
+            raygen: description.raygen.iter().map(|rg| record(rg.record.size)).collect(),
+            callables: Vec::new(),
+            exception: record(description.exceptions.program.map_or(0, |program| program.record.size)),
+            usage: Usage::default(),
+        }
+    }
+
+    /// A record's device bytes, after a check that what it points to is on this scene's device.
+    pub(crate) fn lower<T: Twin>(&self, record: &T) -> Result<RecordData> {
+        // SAFETY: the record keeps the owners beside the bytes.
+        let mut keep = unsafe { KeepAlive::new() };
+        let device_data = record.lower(&mut keep);
+        if let Some(kept) = keep.foreign(self.device) {
+            return Err(Error::Scene(format!(
+                "a record holds {kind} of another device; make it with this scene's device",
+                kind = kept.kind()
+            )));
+        }
+        if let Some(kept) = keep.kept().iter().find(|kept| scene_of(kept).is_some_and(|scene| scene != self.id)) {
+            return Err(Error::Scene(format!(
+                "a record holds {kind} of another scene, whose records are in another table; make it with this scene",
+                kind = kept.kind()
+            )));
+        }
+        let mut bytes = vec![0; size_of::<T::Device>()];
+        device_data.write_to(&mut bytes);
+        Ok(RecordData { bytes: Some(bytes), keep: keep.into_kept() })
+    }
+
     /// What the records point to.
     pub(crate) fn kept(&self) -> impl Iterator<Item = &Kept> {
         let records = self.materials.iter().map(|m| &m.record).chain(&self.miss).chain(&self.raygen);

@@ -1,6 +1,6 @@
 //! The layers of optix-host: no module uses one of its own layer or of a layer above.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -19,9 +19,6 @@ const LAYERS: &[&[&str]] = &[
     &["launch"],
     &["cust"],
 ];
-
-/// Arrows that still run up, by module: from, to.
-const EXCEPTIONS: &[(&str, &str)] = &[("scene", "backend"), ("scene", "device")];
 
 /// Identifiers and single characters of a Rust file, each with its line; without comments, strings and lifetimes.
 fn tokens(text: &str) -> Vec<(usize, &str)> {
@@ -175,7 +172,6 @@ fn walk(folder: &Path, path: &[String], visit: &mut impl FnMut(&Path, &[String])
 fn no_arrow_runs_up_in_the_host_crate() {
     let source = super::root().join("../../optix-host/src");
     let reexports = reexports(&fs::read_to_string(source.join("lib.rs")).unwrap());
-    let mut found = BTreeSet::new();
     let mut wrong = Vec::new();
     walk(&source, &[], &mut |file, path| {
         let module = path[0].as_str();
@@ -184,19 +180,12 @@ fn no_arrow_runs_up_in_the_host_crate() {
         }
         let text = fs::read_to_string(file).unwrap();
         for (line, target) in upward(module, root_names(&text, path.len()), &reexports) {
-            if !EXCEPTIONS.contains(&(module, &target)) {
-                wrong.push(format!(
-                    "{}:{line}: `{module}` uses `{target}`",
-                    file.strip_prefix(&source).unwrap().display()
-                ));
-            }
-            found.insert((module.to_owned(), target));
+            let file = file.strip_prefix(&source).unwrap().display();
+            wrong.push(format!("{file}:{line}: `{module}` uses `{target}`"));
         }
     });
     wrong.sort();
     assert!(wrong.is_empty(), "these run up the layers of optix-host:\n{}", wrong.join("\n"));
-    let gone: Vec<_> = EXCEPTIONS.iter().filter(|(a, b)| !found.contains(&(a.to_string(), b.to_string()))).collect();
-    assert!(gone.is_empty(), "these exceptions are needed no more: {gone:?}");
 }
 
 #[test]

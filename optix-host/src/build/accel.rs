@@ -1,0 +1,96 @@
+//! Acceleration structures are built: of geometry (GAS) and of instances (IAS) (guide 5).
+
+use super::Scene;
+use crate::scene::{Accel, GasMember, Instance};
+use crate::{Error, Result};
+use optix_device_rs::attributes::{Geometry as GeometryKindOf, Triangles};
+use optix_device_rs::host::{InstanceTable, TriangleTable};
+use optix_device_rs::pipeline::Pipeline;
+
+/// Gathers what a GAS is built of.
+pub struct GasBuilder<'s, P, G> {
+    scene: &'s mut Scene<P>,
+    members: Vec<GasMember<P, G>>,
+    compact: bool,
+}
+
+/// Gathers what an IAS is built of.
+pub struct IasBuilder<'s, P> {
+    scene: &'s mut Scene<P>,
+    instances: Vec<Instance<P>>,
+}
+
+impl<P: Pipeline> Scene<P> {
+    /// A geometry acceleration structure of these, all of one kind (guide 5).
+    pub fn gas<G: GeometryKindOf>(
+        &mut self,
+        members: impl IntoIterator<Item = GasMember<P, G>>,
+    ) -> GasBuilder<'_, P, G> {
+        GasBuilder { members: members.into_iter().collect(), compact: false, scene: self }
+    }
+
+    /// An instance acceleration structure of these (guide 5.4).
+    pub fn ias(&mut self, instances: impl IntoIterator<Item = Instance<P>>) -> IasBuilder<'_, P> {
+        IasBuilder { instances: instances.into_iter().collect(), scene: self }
+    }
+}
+
+impl<P: Pipeline, G: GeometryKindOf> GasBuilder<'_, P, G> {
+    /// Compacts the structure after the build (guide 5.8).
+    pub fn compact(mut self) -> Self {
+        self.compact = true;
+        self
+    }
+
+    /// Builds it.
+    pub fn build(self) -> Result<Accel<P>> {
+        self.build_for(false)
+    }
+
+    fn build_for(self, random_vertex_access: bool) -> Result<Accel<P>> {
+        let Scene { device, state, .. } = self.scene;
+        let input = state.gas_input(&self.members, self.compact, random_vertex_access)?;
+        let built = device.backend.build_gas(&input)?;
+        state.add_gas(&self.members, built)
+    }
+}
+
+impl<P: Pipeline> GasBuilder<'_, P, Triangles> {
+    /// Builds it so that programs may read its triangles, which takes a little more memory
+    /// (`OPTIX_BUILD_FLAG_ALLOW_RANDOM_VERTEX_ACCESS`, guide 13.9). The table is what a field of type
+    /// [`TriangleVertices`](optix_device_rs::accel::TriangleVertices) holds.
+    pub fn build_with_triangles(self) -> Result<(Accel<P>, TriangleTable)> {
+        let device = self.scene.device.clone();
+        let counts: Vec<u32> = self.members.iter().flat_map(GasMember::primitives_by_record).collect();
+        let accel = self.build_for(true)?;
+        let counts = device.buffer(&counts)?;
+        // SAFETY: built for it, with these records, each of a geometry of 2^29 triangles at the most; the buffer is nobody else's.
+        let table = unsafe { TriangleTable::new(accel.shared.world(), counts) };
+        Ok((accel, table))
+    }
+}
+
+impl<P: Pipeline> IasBuilder<'_, P> {
+    /// Builds it.
+    pub fn build(self) -> Result<Accel<P>> {
+        self.build_for(false)
+    }
+
+    /// Builds it so that programs may read its instances (`OPTIX_BUILD_FLAG_ALLOW_RANDOM_INSTANCE_ACCESS`, guide 13.12). The
+    /// table is what a field of type [`Instances`](optix_device_rs::accel::Instances) holds.
+    pub fn build_with_instances(self) -> Result<(Accel<P>, InstanceTable)> {
+        let len = u32::try_from(self.instances.len())
+            .map_err(|_| Error::Scene(format!("{} instances are more than an IAS has", self.instances.len())))?;
+        let accel = self.build_for(true)?;
+        // SAFETY: built for it, with so many instances.
+        let table = unsafe { InstanceTable::new(accel.shared.world(), len) };
+        Ok((accel, table))
+    }
+
+    fn build_for(self, random_instance_access: bool) -> Result<Accel<P>> {
+        let Scene { device, state, .. } = self.scene;
+        let input = state.ias_input(&self.instances, random_instance_access)?;
+        let built = device.backend.build_ias(&input)?;
+        Ok(state.add_ias(self.instances, built))
+    }
+}

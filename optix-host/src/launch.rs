@@ -1,0 +1,82 @@
+//! Launches of pipelines.
+
+use crate::backend::Running;
+use crate::{Error, Pipeline, Result};
+use optix_device_rs::data::DeviceData;
+use optix_device_rs::host::{KeepAlive, Kept, Twin};
+use optix_device_rs::params::LaunchParams;
+use optix_device_rs::pipeline::{HasRayGen, Pipeline as PipelineType};
+
+impl<P: PipelineType> Pipeline<P> {
+    /// Launches the first ray-generation program over `dimensions` (width, height, depth; at most 2^30 in all).
+    ///
+    /// The launch runs on; what it writes is read after it by order of the device's work, and what it uses is kept alive.
+    pub fn launch(&self, params: &<P::Params as LaunchParams>::Host, dimensions: [u32; 3]) -> Result<Launch> {
+        self.begin(0, params, dimensions)
+    }
+
+    /// Launches ray-generation program `Prog`; see [`Pipeline::launch`].
+    pub fn launch_program<Prog>(
+        &self,
+        params: &<P::Params as LaunchParams>::Host,
+        dimensions: [u32; 3],
+    ) -> Result<Launch>
+    where
+        P: HasRayGen<Prog>,
+    {
+        self.begin(<P as HasRayGen<Prog>>::INDEX as usize, params, dimensions)
+    }
+
+    fn begin(&self, raygen: usize, params: &<P::Params as LaunchParams>::Host, dimensions: [u32; 3]) -> Result<Launch> {
+        let error = |what: String| Error::Launch { pipeline: self.plan.description.name, what };
+        let size = dimensions.iter().map(|&d| u128::from(d)).product::<u128>();
+        let [w, h, d] = dimensions;
+        if size == 0 {
+            return Err(error(format!("its dimensions {w} x {h} x {d} are empty")));
+        }
+        if size > 1 << 30 {
+            return Err(error(format!("its dimensions {w} x {h} x {d} are more than 2^30 (guide 12)")));
+        }
+        // SAFETY: the launch that is given the views keeps the owners.
+        let mut keep = unsafe { KeepAlive::new() };
+        let device_params = params.lower(&mut keep);
+        if let Some(kept) = keep.foreign(self.device.backend.id()) {
+            return Err(error(format!("its parameters hold {} of another device", kept.kind())));
+        }
+        keep.kept().iter().try_for_each(|kept| self.check("its parameters hold", kept)).map_err(error)?;
+        let mut bytes = vec![0; size_of::<P::Params>()];
+        device_params.write_to(&mut bytes);
+        for bound in &self.plan.bound {
+            bound.check(&bytes).map_err(error)?;
+        }
+        let running = self.linked.launch(raygen, &bytes, keep.kept(), dimensions)?;
+        let mut kept = keep.into_kept();
+        kept.extend(self.records.iter().cloned());
+        Ok(Launch { running, done: false, _keep: kept })
+    }
+}
+
+/// A launch under way; it keeps alive what it uses. Dropping it waits for its end.
+#[must_use = "a launch that is dropped is waited for, and its errors are lost"]
+pub struct Launch {
+    running: Box<dyn Running>,
+    done: bool,
+    _keep: Vec<Kept>,
+}
+
+impl Launch {
+    /// Waits until the launch is done, and says what went wrong in it.
+    pub fn wait(mut self) -> Result<()> {
+        self.done = true;
+        self.running.wait()
+    }
+}
+
+impl Drop for Launch {
+    fn drop(&mut self) {
+        if !self.done {
+            // An error has nobody to go to here; `wait` is the way to hear of it.
+            let _ = self.running.wait();
+        }
+    }
+}
