@@ -4,7 +4,6 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::blame::{self, Culprit, Missing};
 use crate::cargo::{self, Place};
 use crate::compiler::{DeviceCompiler, TARGET};
 use crate::dep_info;
@@ -13,6 +12,7 @@ use crate::libm::{PatchedLibm, SOFTWARE};
 use crate::lock;
 use crate::messages;
 use crate::metadata::{Package, Workspace};
+use crate::missing::{Culprit, Missing, culprit};
 #[cfg(feature = "nvvm")]
 use crate::nvvm;
 use crate::options::{Codegen, Shaders};
@@ -230,11 +230,11 @@ impl<'a> Session<'a> {
         };
         let wrapper = session.wrapper().ok()?;
         let mut cargo = session.cargo("rustc", &wrapper, &session.target_dir());
-        cargo.args(["--lib", "--", "--emit=llvm-ir=blame.ll"]);
-        let ir = wrapper.dir.join("blame.ll");
+        cargo.args(["--lib", "--", "--emit=llvm-ir=missing.ll"]);
+        let ir = wrapper.dir.join("missing.ll");
         // It may fail in the same way, but after the IR.
         let _ = cargo.stdout(Stdio::null()).stderr(Stdio::null()).status();
-        blame::culprit(&util::read(&ir).ok()?, missing, &session.graph.packages, &session.package)
+        culprit(&util::read(&ir).ok()?, missing, &session.graph.packages, &session.package)
     }
 
     fn compile(&self) -> Result<Built, Error> {

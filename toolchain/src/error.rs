@@ -4,9 +4,9 @@ use std::fmt;
 use std::path::PathBuf;
 use std::process::ExitStatus;
 
-use crate::blame::Culprit;
 use crate::compiler::{MINIMUM, Rejected};
 use crate::messages::{NeedsStd, OfStd};
+use crate::missing::Culprit;
 use crate::ptx;
 
 /// Why a shader crate was not compiled. `Display` is one line: what is wrong and what to do.

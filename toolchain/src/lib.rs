@@ -31,15 +31,15 @@
 //! | run cargo on the wrapper where the outer cargo runs, so that configuration counts, but without the outer build's environment | `cargo` |
 //! | show what `rustc` says, and name a crate that needs the standard library | `messages` |
 //! | check that the PTX has entries and nothing that OptiX does not run | [`mod@ptx`] |
-//! | if it has, find the crate, function and line that asks for it | [`blame`] |
+//! | if it has, find the crate, function and line that asks for it | `missing` |
 //!
 //! The module `verify`, of the feature `cli`, goes further: for `cargo optix verify` it compares the PTX with what the host
 //! computes from the same `pipeline!`. The module `inspect` is behind `cargo optix inspect`: what programs cost.
+//! [`json`] reads what cargo prints and writes what `cargo optix` prints as JSON.
 //!
 //! The device's `core` is in the user's cache folder ([`cache()`]), or with the rest where that can't be written. Everything else is
 //! under `<target directory>/optix`, which `cargo clean` removes.
 
-pub mod blame;
 mod build_script;
 mod cache;
 mod cargo;
@@ -52,6 +52,7 @@ mod libm;
 mod lock;
 mod messages;
 mod metadata;
+mod missing;
 #[cfg(feature = "nvvm")]
 pub mod nvvm;
 mod options;
@@ -75,6 +76,7 @@ pub use device_build::Built;
 pub use error::Error;
 pub use messages::{NeedsStd, OfStd};
 pub use metadata::{Package, Workspace};
+pub use missing::{Culprit, Missing, SourceLocation};
 pub use options::{Codegen, DEFAULT_ARCH, Shaders};
 
 /// Compiles the shader crate in `path` with the default [options](Shaders). To be called from a `build.rs`.

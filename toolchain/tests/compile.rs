@@ -5,8 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use optix_toolchain::blame::Missing;
-use optix_toolchain::{Built, Codegen, Error, Shaders, ptx};
+use optix_toolchain::{Built, Codegen, Error, Missing, Shaders, ptx};
 
 fn compile(shaders: &Path) -> Result<Built, Error> {
     Shaders::new(shaders).compile_in(common::area())

@@ -5,8 +5,7 @@ mod common;
 use std::fs;
 use std::path::PathBuf;
 
-use optix_toolchain::blame::Missing;
-use optix_toolchain::{Built, Error, Shaders};
+use optix_toolchain::{Built, Error, Missing, Shaders};
 
 const SHADERS: &str = r#"#![no_std]
 

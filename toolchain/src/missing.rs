@@ -19,9 +19,9 @@ pub struct Culprit {
     /// What is missing.
     pub what: Missing,
     /// The function that uses it: the innermost one of a package.
-    pub at: Place,
+    pub at: SourceLocation,
     /// Where the shader crate comes to that, if it is in another package.
-    pub from: Option<Place>,
+    pub from: Option<SourceLocation>,
 }
 
 /// What is missing.
@@ -42,7 +42,7 @@ pub enum Missing {
 
 /// A place in the source.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct SourceLocation {
     /// The function's name.
     pub function: String,
     /// The name and version of its package.
@@ -53,7 +53,7 @@ pub struct Place {
     pub line: u32,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for SourceLocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "`{}` of {} ({}:{})", self.function, self.package, self.file.display(), self.line)
     }
@@ -100,9 +100,10 @@ pub(crate) fn culprit(ir: &str, missing: &[Missing], packages: &[Package], own: 
         |what: &Missing| module.instructions().find(|(function, instruction)| what.is_used(function, instruction));
     let (what, (function, instruction)) = missing.iter().find_map(|what| Some((what, find(what)?)))?;
     let frames = Origins::new(&module).of(function, instruction);
-    let places: Vec<(&Package, Place)> = frames.iter().filter_map(|frame| place(frame, packages)).collect();
-    let (package, at) = places.first()?.clone();
-    let from = places.into_iter().find(|(package, _)| package.id == own.id).map(|(_, place)| place);
+    let locations: Vec<(&Package, SourceLocation)> =
+        frames.iter().filter_map(|frame| location(frame, packages)).collect();
+    let (package, at) = locations.first()?.clone();
+    let from = locations.into_iter().find(|(package, _)| package.id == own.id).map(|(_, location)| location);
     Some(Culprit { what: what.clone(), at, from: from.filter(|_| package.id != own.id) })
 }
 
@@ -141,11 +142,11 @@ fn names(call: &Call, symbol: &str) -> bool {
     found
 }
 
-/// The place of a frame, and the package of `packages` that it is in.
-fn place<'p>(frame: &Frame<'_>, packages: &'p [Package]) -> Option<(&'p Package, Place)> {
+/// The location of a frame, and the package of `packages` that it is in.
+fn location<'p>(frame: &Frame<'_>, packages: &'p [Package]) -> Option<(&'p Package, SourceLocation)> {
     let package = packages.iter().filter(|package| frame.file.starts_with(package.dir()));
     let package = package.max_by_key(|package| package.dir().as_os_str().len())?;
     let file = frame.file.strip_prefix(package.dir()).unwrap_or(&frame.file).to_path_buf();
     let name = format!("{} {}", package.name, package.version);
-    Some((package, Place { function: frame.function.to_string(), package: name, file, line: frame.line }))
+    Some((package, SourceLocation { function: frame.function.to_string(), package: name, file, line: frame.line }))
 }
