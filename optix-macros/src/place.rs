@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// Eight digits that tell apart things of one name, the same in host and device builds: they come from the package and
-/// from the place in its source, not from how a compiler prints tokens or where the package lies on disk. What a macro of the
-/// user's makes several times has one place; its digits follow from how many came before.
+/// from the file in it, not from how a compiler prints tokens or where the package lies on disk, and not from the line, so that they
+/// stay as they are when other code of the file is edited. Of several of one name in one file, the digits follow from how many came before.
 pub fn place(span: Span, name: &str) -> String {
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     let mut mix = |text: &str| {
@@ -25,8 +25,6 @@ pub fn place(span: Span, name: &str) -> String {
         let root = |variable| std::env::var_os(variable).map(PathBuf::from);
         let file = in_package(&file, root("OUT_DIR").as_deref(), root("CARGO_MANIFEST_DIR").as_deref());
         file.iter().rev().for_each(|part| mix(&part.to_string_lossy()));
-        mix(&span.line().to_string());
-        mix(&span.column().to_string());
     }
     static GIVEN: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
     let mut given = GIVEN.lock().unwrap_or_else(PoisonError::into_inner);

@@ -21,15 +21,15 @@ fn pipeline(name: &str) -> String {
 const PRELUDE: &str = "use optix_device_rs::prelude::*;\n\n";
 
 const MAIN: &str = "use optix_device_rs::pipeline::Pipeline;\n\nfn main() {\n    use beside::{Root, elsewhere::Elsewhere, \
-                    included::Included, inner::Inner, made::Made};\n    let all = [Root::DESCRIPTION, Elsewhere::DESCRIPTION, \
-                    Included::DESCRIPTION, Inner::DESCRIPTION, Made::DESCRIPTION];\n    all.iter().for_each(|pipeline| \
+                    included::Included, inner::Inner, made::Made, again, once_more};\n    let all = [Root::DESCRIPTION, Elsewhere::DESCRIPTION, \
+                    Included::DESCRIPTION, Inner::DESCRIPTION, Made::DESCRIPTION, again::Root::DESCRIPTION, once_more::Root::DESCRIPTION];\n    all.iter().for_each(|pipeline| \
                     println!(\"{}\", pipeline.raygen[0].entry.name));\n}\n";
 
 const BUILD: &str = "fn main() {\n    let out = std::env::var(\"OUT_DIR\").unwrap();\n    std::fs::copy(\"made.txt\", \
                      format!(\"{out}/made.rs\")).unwrap();\n}\n";
 
 /// The crate's root lies beside its manifest, which is that of a workspace: the host's rustc is told `lib.rs`, the device's the
-/// whole path. Other sources lie deeper, in another folder, are included, or written by a build script.
+/// whole path. Other sources lie deeper, in another folder, are included, or written by a build script; three pipelines of one file have one name.
 #[test]
 fn programs_have_one_name() {
     if !common::can_compile("programs_have_one_name") {
@@ -47,8 +47,9 @@ fn programs_have_one_name() {
     let library = format!(
         "#![cfg_attr(target_arch = \"nvptx64\", no_std)]\n\n{PRELUDE}pub mod inner;\n#[path = \"../common/elsewhere.rs\"]\n\
          pub mod elsewhere;\npub mod included {{\n    include!(\"included.rs\");\n}}\npub mod made {{\n    \
-         include!(concat!(env!(\"OUT_DIR\"), \"/made.rs\"));\n}}\n\n{}",
-        pipeline("Root")
+         include!(concat!(env!(\"OUT_DIR\"), \"/made.rs\"));\n}}\n\n{root}\n\
+         pub mod again {{\n    {PRELUDE}{root}}}\npub mod once_more {{\n    {PRELUDE}{root}}}\n",
+        root = pipeline("Root")
     );
     let source = |name: &str| format!("{PRELUDE}{}", pipeline(name));
     for (file, text) in [
@@ -77,5 +78,13 @@ fn programs_have_one_name() {
     host.sort_unstable();
     device.sort_unstable();
     assert_eq!(host, device);
-    assert_eq!(host.len(), 5);
+    assert_eq!(host.len(), 7);
+
+    // Code that moves keeps its names.
+    let file = package.join("lib.rs");
+    let text = fs::read_to_string(&file).expect("it was written");
+    fs::write(&file, text.replacen(PRELUDE, &format!("{PRELUDE}// A line.\n\n    "), 1)).expect("writable");
+    let mut moved = Shaders::new(&package).compile_in(common::area()).expect("it compiles").entries;
+    moved.sort_unstable();
+    assert_eq!(moved, device);
 }
