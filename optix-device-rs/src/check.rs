@@ -574,14 +574,14 @@ const EMPTY: Text = Text { bytes: [0; 512], len: 0 };
 /// A payload has 32 words at most (guide 14).
 #[track_caller]
 pub const fn payload_words(name: &str, words: usize) {
-    if words > crate::words::MAX_PAYLOAD_WORDS {
+    if words > crate::limits::MAX_PAYLOAD_WORDS {
         let text = EMPTY
             .push("payload `")
             .push(name)
             .push("` takes ")
             .number(words)
             .push(" words, but a ray has registers for ")
-            .number(crate::words::MAX_PAYLOAD_WORDS)
+            .number(crate::limits::MAX_PAYLOAD_WORDS)
             .push(": put `#[payload(transport = pointer)]` on the struct, to keep them in the caller's memory; or take fields out");
         panic!("{}", text.as_str());
     }
@@ -590,14 +590,14 @@ pub const fn payload_words(name: &str, words: usize) {
 /// Attributes have 8 words at most (guide 13.4).
 #[track_caller]
 pub const fn attribute_words(name: &str, words: usize) {
-    if words > crate::words::MAX_ATTRIBUTE_WORDS {
+    if words > crate::limits::MAX_ATTRIBUTE_WORDS {
         let text = EMPTY
             .push("attributes `")
             .push(name)
             .push("` take ")
             .number(words)
             .push(" words, but a hit has registers for ")
-            .number(crate::words::MAX_ATTRIBUTE_WORDS)
+            .number(crate::limits::MAX_ATTRIBUTE_WORDS)
             .push(": report less and compute the rest in the closest-hit program from the record");
         panic!("{}", text.as_str());
     }
@@ -648,7 +648,7 @@ pub const fn is_program(has_attribute: bool, is_function: bool, name: &str, attr
 pub const fn callable<F: crate::callable::Signature>(name: &str) {
     let arguments = <F::Arguments as crate::words::Words>::COUNT;
     let result = <F::Result as crate::words::Words>::COUNT;
-    let most = crate::words::MAX_PAYLOAD_WORDS;
+    let most = crate::limits::MAX_PAYLOAD_WORDS;
     if arguments > most || result > most {
         let (what, words) = if arguments > most { ("arguments", arguments) } else { ("result", result) };
         let text = EMPTY

@@ -70,6 +70,7 @@ pub mod exception;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod host;
 pub mod layout;
+pub mod limits;
 #[doc(hidden)]
 pub mod machine;
 pub mod math;

@@ -1,16 +1,12 @@
 //! Values as 32-bit words, the way payload and attribute registers carry them (guide 13.3, 13.4).
 
 use crate::layout::Layout;
+use crate::limits::MAX_PAYLOAD_WORDS;
 use glam::{
     Affine2, Affine3A, DAffine2, DAffine3, DMat2, DMat3, DMat4, DQuat, DVec2, DVec3, DVec4, I16Vec2, I16Vec3, I16Vec4,
     IVec2, IVec3, IVec4, Mat2, Mat3, Mat3A, Mat4, Quat, U16Vec2, U16Vec3, U16Vec4, UVec2, UVec3, UVec4, Vec2, Vec3,
     Vec3A, Vec4,
 };
-
-/// The most words a payload has in registers (guide 14).
-pub const MAX_PAYLOAD_WORDS: usize = 32;
-/// The most words an attribute set has (guide 13.4).
-pub const MAX_ATTRIBUTE_WORDS: usize = 8;
 
 /// Room for the registers of one payload or attribute set.
 ///

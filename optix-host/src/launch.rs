@@ -1,6 +1,7 @@
 //! Launches of pipelines.
 
 use crate::backend::Running;
+use crate::limits::MAX_LAUNCH_SIZE;
 use crate::{Error, Pipeline, Result};
 use optix_device_rs::data::DeviceData;
 use optix_device_rs::host::{KeepAlive, Kept, Twin};
@@ -34,8 +35,11 @@ impl<P: PipelineType> Pipeline<P> {
         if size == 0 {
             return Err(error(format!("its dimensions {w} x {h} x {d} are empty")));
         }
-        if size > 1 << 30 {
-            return Err(error(format!("its dimensions {w} x {h} x {d} are more than 2^30 (guide 12)")));
+        if size > u128::from(MAX_LAUNCH_SIZE) {
+            return Err(error(format!(
+                "its dimensions {w} x {h} x {d} are more than 2^{} (guide 12)",
+                MAX_LAUNCH_SIZE.ilog2()
+            )));
         }
         // SAFETY: the launch that is given the views keeps the owners.
         let mut keep = unsafe { KeepAlive::new() };

@@ -17,6 +17,7 @@ pub mod cust;
 mod device;
 mod error;
 mod launch;
+mod limits;
 pub mod optix;
 pub mod pipeline;
 mod plan;

@@ -14,6 +14,7 @@ mod element;
 mod exception;
 #[cfg(test)]
 mod fuzz;
+mod limits;
 mod params;
 mod payload;
 mod pipeline;

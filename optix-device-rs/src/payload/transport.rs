@@ -1,9 +1,10 @@
 //! How a payload gets from party to party.
 
 use super::Part;
+use crate::limits::MAX_PAYLOAD_WORDS;
 use crate::machine::{Cx, TraceCall, UNWRITTEN, unwritten};
 use crate::sealed::Sealed;
-use crate::words::{MAX_PAYLOAD_WORDS, WordBuffer, Words, part, part_mut};
+use crate::words::{WordBuffer, Words, part, part_mut};
 use core::mem::MaybeUninit;
 
 /// How a payload gets from party to party; chosen by `#[payload(transport = ..)]`, the same for every program's source.

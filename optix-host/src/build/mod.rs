@@ -27,7 +27,7 @@ impl<P: Pipeline> Scene<P> {
         Self { device: device.clone(), state, pipeline: PhantomData }
     }
 
-    /// Checks and copies geometry: [`TriangleMesh`] or [`Boxes`].
+    /// Checks and copies geometry: [`TriangleMesh`](crate::TriangleMesh) or [`Boxes`](crate::Boxes).
     pub fn geometry<I: IntoGeometry>(&mut self, geometry: I) -> Result<Geometry<I::Kind>> {
         Ok(Geometry::of(geometry)?)
     }

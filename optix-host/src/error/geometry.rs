@@ -1,5 +1,6 @@
 //! What can be wrong with geometry.
 
+use crate::limits::MAX_PRIMITIVES;
 use glam::Vec3;
 use std::fmt;
 
@@ -50,7 +51,7 @@ pub enum GeometryError {
         max: Vec3,
     },
     /// More than an acceleration structure takes.
-    #[error("{count} primitives are more than the 2^29 of an acceleration structure (guide 12)")]
+    #[error("{count} primitives are more than the 2^{} of an acceleration structure (guide 12)", MAX_PRIMITIVES.ilog2())]
     TooMany {
         /// How many there are.
         count: usize,

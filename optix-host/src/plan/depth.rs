@@ -1,14 +1,10 @@
 //! Which programs a launch reaches, and how deep their calls nest (guide 6.7, 6.8).
 
+use crate::limits::{MAX_CALLABLE_DEPTH, MAX_TRACE_DEPTH};
 use crate::{Error, Result};
 use optix_device_rs::host::{Entry, PipelineDescription};
 use optix_ptx::{Function, Module, Prototype};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
-
-/// Deepest nesting of trace calls (guide 12).
-const MAX_TRACE_DEPTH: u32 = 31;
-/// Deepest nesting of callables where neither the declaration nor the programs say one: as deep as `pipeline!` allows.
-const MAX_CALLABLE_DEPTH: u32 = 31;
 
 const TRACE: &str = "_optix_trace_typed_32";
 

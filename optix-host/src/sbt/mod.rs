@@ -4,14 +4,11 @@
 //! consecutive hit records; a GAS knows where its first one is, and a trace call of ray type `r` uses offset `r` and
 //! stride `R`. So the guide's formula (7.3) always ends at a record of the right material, geometry and ray type.
 
+pub use crate::limits::{RECORD_ALIGNMENT, RECORD_HEADER_SIZE as HEADER_SIZE};
+
 use crate::plan::Plan;
 use crate::scene::{SceneState, Slot};
 use crate::{Error, Result};
-
-/// `OPTIX_SBT_RECORD_HEADER_SIZE`.
-pub const HEADER_SIZE: usize = 32;
-/// `OPTIX_SBT_RECORD_ALIGNMENT`.
-pub const RECORD_ALIGNMENT: usize = 16;
 
 /// Bytes at an address that is a multiple of 16.
 #[derive(Clone, Debug, Default)]

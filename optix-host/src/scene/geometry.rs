@@ -2,6 +2,7 @@
 
 use super::{GasMember, Material};
 use crate::error::GeometryError;
+use crate::limits::MAX_PRIMITIVES;
 use glam::Vec3;
 use optix_device_rs::attributes::{Custom, Geometry as GeometryKindOf, Triangles};
 use optix_device_rs::pipeline::HasHitGroup;
@@ -89,8 +90,6 @@ pub trait IntoGeometry {
 /// Keeps the checked data out of the public interface.
 #[doc(hidden)]
 pub struct GeometryDataToken(GeometryData);
-
-const MAX_PRIMITIVES: usize = 1 << 29;
 
 impl IntoGeometry for TriangleMesh<'_> {
     type Kind = Triangles;

@@ -2,6 +2,7 @@
 
 use super::{Accel, BuiltAccel, IasInput, InstanceFlags, InstanceInput, SceneState};
 use crate::affine::Affine;
+use crate::limits::{INSTANCE_BITS, MAX_GRAPH_DEPTH, MAX_INSTANCE_NUMBER};
 use crate::{Error, Result};
 use glam::Affine3A;
 use optix_device_rs::pipeline::Pipeline;
@@ -42,11 +43,6 @@ impl<P> Accel<P> {
     }
 }
 
-/// Instance ids and SBT offsets have 28 bits (guide 12).
-const MAX_28_BITS: u32 = (1 << 28) - 1;
-/// Levels of a traversable graph, with the GAS (guide 12).
-const MAX_GRAPH_DEPTH: u32 = 31;
-
 impl SceneState {
     /// What a machine builds an IAS of, after a check that each instance is one of this scene.
     pub(crate) fn ias_input<P: Pipeline>(
@@ -63,8 +59,11 @@ impl SceneState {
             if child.scene != self.id {
                 return Err(Error::Scene(format!("instance {i} is of another scene's acceleration structure")));
             }
-            if instance.id > MAX_28_BITS {
-                return Err(Error::Scene(format!("instance {i} has id {}, more than 28 bits", instance.id)));
+            if instance.id > MAX_INSTANCE_NUMBER {
+                return Err(Error::Scene(format!(
+                    "instance {i} has id {}, more than {INSTANCE_BITS} bits",
+                    instance.id
+                )));
             }
             if let Some([a, b]) = instance.flags.conflict() {
                 return Err(Error::Scene(format!(
@@ -87,8 +86,11 @@ impl SceneState {
                 )));
             }
             let sbt_offset = u64::from(child.first_slot) * u64::from(P::RAY_TYPES);
-            let Some(sbt_offset) = u32::try_from(sbt_offset).ok().filter(|&offset| offset <= MAX_28_BITS) else {
-                return Err(Error::Scene(format!("instance {i} has SBT offset {sbt_offset}, more than 28 bits")));
+            let Some(sbt_offset) = u32::try_from(sbt_offset).ok().filter(|&offset| offset <= MAX_INSTANCE_NUMBER)
+            else {
+                return Err(Error::Scene(format!(
+                    "instance {i} has SBT offset {sbt_offset}, more than {INSTANCE_BITS} bits"
+                )));
             };
             inputs.push(InstanceInput {
                 transform,
@@ -100,7 +102,7 @@ impl SceneState {
             });
         }
         let depth = depth_over(instances);
-        if depth >= MAX_GRAPH_DEPTH {
+        if depth as usize >= MAX_GRAPH_DEPTH {
             return Err(Error::Scene(format!(
                 "{} levels of instances: a traversable graph has {MAX_GRAPH_DEPTH} levels with its geometry",
                 depth

@@ -1,16 +1,10 @@
 //! What must hold of a pipeline before types come into it.
 
 use super::parse::{Geometry, Pipeline};
+use crate::limits::{MAX_CALLABLE_DEPTH, MAX_PAYLOAD_TYPES, MAX_TRACE_DEPTH};
 use crate::support::Errors;
 use quote::ToTokens;
 use syn::{Error, Type};
-
-/// OptiX has eight payload types in a module (guide 14).
-const MAX_RAY_TYPES: usize = 8;
-/// The greatest trace depth (guide 6.7).
-const MAX_TRACE_DEPTH: u32 = 31;
-/// OptiX has no limit but the stack; this is ours, that of the executor's host.
-const MAX_CALLABLE_DEPTH: u32 = 31;
 
 pub fn check(pipeline: &Pipeline, errors: &mut Errors) {
     if pipeline.params.is_none() {
@@ -77,11 +71,11 @@ fn rays(pipeline: &Pipeline, errors: &mut Errors) {
             );
         }
     }
-    if let Some(ray) = pipeline.rays.get(MAX_RAY_TYPES) {
+    if let Some(ray) = pipeline.rays.get(MAX_PAYLOAD_TYPES) {
         errors.at(
             &ray.payload,
             format!(
-                "a pipeline has {MAX_RAY_TYPES} ray types at most, one for each payload type that a module may have (guide \
+                "a pipeline has {MAX_PAYLOAD_TYPES} ray types at most, one for each payload type that a module may have (guide \
                  14); this one lists {}",
                 pipeline.rays.len()
             ),

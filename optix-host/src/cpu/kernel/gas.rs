@@ -7,6 +7,7 @@ use super::primitive::Primitives;
 use super::primitive::custom::{AabbInput, Boxes};
 use super::primitive::triangle::{TriangleInput, Triangles};
 use crate::error::BuildError;
+use crate::limits::{MAX_PRIMITIVES, MAX_RECORDS_OF_GAS};
 
 /// How the primitives of a build input map to its SBT records (guide §5.1).
 #[derive(Clone, Debug, PartialEq)]
@@ -23,10 +24,6 @@ impl SbtMapping {
         Self { flags: vec![flags], per_primitive: None }
     }
 }
-
-/// Most primitives, and most SBT records, of one structure.
-const MAX_PRIMITIVES: usize = 1 << 29;
-const MAX_RECORDS: usize = 1 << 24;
 
 /// What a build input contributes.
 #[derive(Clone, Copy, Debug)]
@@ -172,8 +169,8 @@ impl Table {
             return Err(BuildError::NoSbtRecord { input });
         }
         let (all_records, all_primitives) = (self.flags.len() + records, self.records.len() + primitives);
-        if all_records > MAX_RECORDS {
-            return Err(BuildError::TooMany { what: "SBT records", count: all_records, limit: MAX_RECORDS });
+        if all_records > MAX_RECORDS_OF_GAS {
+            return Err(BuildError::TooMany { what: "SBT records", count: all_records, limit: MAX_RECORDS_OF_GAS });
         }
         if all_primitives > MAX_PRIMITIVES {
             return Err(BuildError::TooMany { what: "primitives", count: all_primitives, limit: MAX_PRIMITIVES });

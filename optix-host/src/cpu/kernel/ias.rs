@@ -8,6 +8,7 @@ use super::collapse::SINGLE_LEAF;
 use super::gas::Gas;
 use crate::affine::Affine;
 use crate::error::BuildError;
+use crate::limits::{MAX_GRAPH_DEPTH, MAX_INSTANCE_NUMBER, MAX_INSTANCES};
 use crate::scene::InstanceFlags;
 
 /// A structure that rays are traced against.
@@ -16,9 +17,6 @@ pub enum Accel {
     Gas(Gas),
     Ias(Ias),
 }
-
-/// Most structures on a way from the root to a primitive (guide §12).
-pub const MAX_GRAPH_DEPTH: usize = 31;
 
 impl Accel {
     /// The smallest box around all primitives of a GAS; for an IAS a box around all that its instances hold.
@@ -132,9 +130,6 @@ pub struct Ias {
     depth: usize,
 }
 
-const MAX_INSTANCES: usize = 1 << 28;
-const LIMIT_28_BITS: u32 = 1 << 28;
-
 impl Ias {
     /// Builds over instances. None at all is legal; rays then miss.
     pub fn new(instances: Vec<Instance>) -> Result<Self, BuildError> {
@@ -181,12 +176,12 @@ impl Ias {
 /// Finds what is wrong with an instance, or gives the inverse of its transform.
 fn check(instance: usize, given: &Instance) -> Result<Affine, BuildError> {
     for (field, value) in [("instance_id", given.instance_id), ("sbt_offset", given.sbt_offset)] {
-        if value >= LIMIT_28_BITS {
+        if value > MAX_INSTANCE_NUMBER {
             return Err(BuildError::Exceeds28Bits { instance, field, value });
         }
     }
     let sum = given.sbt_offset + given.child.max_sbt_offset();
-    if sum >= LIMIT_28_BITS {
+    if sum > MAX_INSTANCE_NUMBER {
         return Err(BuildError::SbtOffsetSum { instance, offset: given.sbt_offset, sum });
     }
     if given.flags.conflict().is_some() {

@@ -34,10 +34,11 @@ mod tests;
 
 pub use crate::affine::Affine;
 pub use crate::error::BuildError;
+pub use crate::limits::MAX_GRAPH_DEPTH;
 pub use aabb::Aabb;
 pub use flags::{GeometryFlags, Verdict, any_hit_verdict, ray_flags};
 pub use gas::{Gas, SbtMapping};
-pub use ias::{Accel, Ias, Instance, MAX_GRAPH_DEPTH, Placed};
+pub use ias::{Accel, Ias, Instance, Placed};
 pub use path::InstancePath;
 pub use primitive::custom::AabbInput;
 pub use primitive::triangle::{BACK_FACE, FRONT_FACE, TriangleInput};

@@ -1,7 +1,8 @@
 //! The instances between the root of a trace and a primitive.
 
-use super::ias::{Accel, MAX_GRAPH_DEPTH, Placed};
+use super::ias::{Accel, Placed};
 use crate::affine::Affine;
+use crate::limits::MAX_GRAPH_DEPTH;
 
 /// Which instances lead from the structure given to the trace down to a primitive. Copied by value; no heap.
 #[derive(Clone, Copy, Debug)]

@@ -11,9 +11,7 @@ use super::event::Event;
 use super::pipeline::Pipeline;
 use super::sbt::ShaderBindingTable;
 use crate::error::DriverError as Error;
-
-/// Launch indices that one launch may have (C071).
-const MAX_LAUNCH: u64 = 1 << 30;
+use crate::limits::MAX_LAUNCH_SIZE;
 
 /// What a launch is given.
 pub struct LaunchArgs<'a> {
@@ -172,7 +170,7 @@ fn check_dims(dims: [u32; 3]) -> Result<(), Error> {
     // Two factors fit 64 bits, the third is checked for.
     let size = dims.iter().try_fold(1u64, |size, &dim| size.checked_mul(u64::from(dim)));
     match size {
-        Some(1..=MAX_LAUNCH) => Ok(()),
+        Some(1..=MAX_LAUNCH_SIZE) => Ok(()),
         _ => {
             let problem = format!("the dimensions are {} x {} x {}", dims[0], dims[1], dims[2]);
             let remedy = "each must be at least 1 and their product at most 2^30: launch larger images in tiles";

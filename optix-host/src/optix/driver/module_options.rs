@@ -6,6 +6,7 @@ use super::options::PipelineOptions;
 use super::payload::PayloadType;
 use super::sys;
 use crate::error::DriverError as Error;
+use crate::limits::MAX_PAYLOAD_TYPES;
 
 /// How one module is compiled. Modules of one pipeline may differ in it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -103,7 +104,7 @@ impl ModuleOptions {
 
     fn check_payload_types(&self, pipeline: &PipelineOptions) -> Result<(), Error> {
         const WHAT: &str = "payload types";
-        let max = sys::OPTIX_COMPILE_DEFAULT_MAX_PAYLOAD_TYPE_COUNT;
+        let max = MAX_PAYLOAD_TYPES;
         if self.payload_types.len() > max {
             let problem = format!("{} types in one module, more than {max}", self.payload_types.len());
             return Err(Error::invalid(WHAT, problem, "spread the ray types over several modules (H014)"));

@@ -5,9 +5,8 @@ use std::ffi::CString;
 use super::context::Context;
 use super::sys;
 use crate::error::DriverError as Error;
+use crate::limits::{MAX_ATTRIBUTE_WORDS, MAX_PAYLOAD_WORDS};
 
-/// Attribute words that a pipeline may reserve (C020).
-const MAX_ATTRIBUTE_VALUES: u32 = 8;
 /// The `ROCAPS` curves, which ABI 105 brought.
 const ROCAPS: u32 = 0xf00;
 
@@ -124,13 +123,13 @@ pub(super) struct RawOptions {
 impl PipelineOptions {
     pub(super) fn raw(&self, context: &Context) -> Result<RawOptions, Error> {
         const WHAT: &str = "pipeline options";
-        let max_payload = sys::OPTIX_COMPILE_DEFAULT_MAX_PAYLOAD_VALUE_COUNT as u32;
+        let max_payload = MAX_PAYLOAD_WORDS as u32;
         if self.payload_values > max_payload {
             let problem = format!("{} payload words, more than {max_payload}", self.payload_values);
             return Err(Error::invalid(WHAT, problem, "move state behind a pointer that two payload words carry"));
         }
-        if self.attribute_values > MAX_ATTRIBUTE_VALUES {
-            let problem = format!("{} attribute words, more than {MAX_ATTRIBUTE_VALUES}", self.attribute_values);
+        if self.attribute_values > MAX_ATTRIBUTE_WORDS as u32 {
+            let problem = format!("{} attribute words, more than {MAX_ATTRIBUTE_WORDS}", self.attribute_values);
             return Err(Error::invalid(WHAT, problem, "compute the rest of the attributes in the hit programs"));
         }
         if self.primitives.0 & ROCAPS != 0 && context.abi_version() < 105 {

@@ -2,6 +2,7 @@
 
 use super::sys;
 use crate::error::DriverError as Error;
+use crate::limits::MAX_PAYLOAD_WORDS;
 
 /// A payload: for each 32-bit word, up to 32, who reads and writes it (guide §14).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -56,7 +57,7 @@ impl PayloadSemantics {
 
 impl PayloadType {
     pub(super) fn check(&self) -> Result<(), Error> {
-        let (words, max) = (self.semantics.len(), sys::OPTIX_COMPILE_DEFAULT_MAX_PAYLOAD_VALUE_COUNT);
+        let (words, max) = (self.semantics.len(), MAX_PAYLOAD_WORDS);
         if words <= max {
             return Ok(());
         }

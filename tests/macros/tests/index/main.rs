@@ -4,6 +4,7 @@
 
 mod device_functions;
 mod layers;
+mod limits;
 mod traits;
 
 use std::collections::BTreeMap;

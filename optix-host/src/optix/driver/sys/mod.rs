@@ -51,9 +51,9 @@ handles! {
 }
 
 /// Bytes of a shader-binding-table record header.
-pub const OPTIX_SBT_RECORD_HEADER_SIZE: usize = 32;
+pub const OPTIX_SBT_RECORD_HEADER_SIZE: usize = crate::limits::RECORD_HEADER_SIZE;
 /// Alignment in bytes of every shader-binding-table record, and so of every stride.
-pub const OPTIX_SBT_RECORD_ALIGNMENT: usize = 16;
+pub const OPTIX_SBT_RECORD_ALIGNMENT: usize = crate::limits::RECORD_ALIGNMENT;
 /// Alignment in bytes of the output and temporary buffers of a build.
 pub const OPTIX_ACCEL_BUFFER_BYTE_ALIGNMENT: u64 = 128;
 /// Alignment in bytes of instances in device memory.
@@ -64,7 +64,3 @@ pub const OPTIX_AABB_BUFFER_BYTE_ALIGNMENT: u64 = 8;
 pub const OPTIX_GEOMETRY_TRANSFORM_BYTE_ALIGNMENT: u64 = 16;
 /// Alignment in bytes of a transform traversable in device memory.
 pub const OPTIX_TRANSFORM_BYTE_ALIGNMENT: u64 = 64;
-/// Payload types that one module may declare.
-pub const OPTIX_COMPILE_DEFAULT_MAX_PAYLOAD_TYPE_COUNT: usize = 8;
-/// 32-bit words that one payload may have.
-pub const OPTIX_COMPILE_DEFAULT_MAX_PAYLOAD_VALUE_COUNT: usize = 32;
