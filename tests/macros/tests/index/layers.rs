@@ -48,9 +48,9 @@ fn tokens(text: &str) -> Vec<(usize, &str)> {
             (inside.count() + 1).min(rest.len())
         } else if rest.starts_with("'\\") {
             rest[3..].find('\'').map_or(rest.len(), |end| end + 4)
-        } else if rest.starts_with('\'') {
-            let char_len = rest[1..].chars().next().map_or(0, char::len_utf8);
-            if rest[1 + char_len..].starts_with('\'') { char_len + 2 } else { 1 }
+        } else if let Some(rest) = rest.strip_prefix('\'') {
+            let char_len = rest.chars().next().map_or(0, char::len_utf8);
+            if rest[char_len..].starts_with('\'') { char_len + 2 } else { 1 }
         } else {
             let len = word.max(rest.chars().next().map_or(1, char::len_utf8));
             if !rest.starts_with(char::is_whitespace) {
