@@ -2,7 +2,7 @@
 
 use super::checks::{self, Watch};
 use super::handle::{self, rows};
-use super::stack::StackEnd;
+use super::stack::{Left, Stack};
 use super::traversal::{AtHit, Traversal};
 use super::{Job, rules, trap};
 use crate::cpu::kernel::{self, Accel, RayQuery};
@@ -40,7 +40,7 @@ pub(super) struct Call<'c> {
     depth: u32,
     /// Callables around this one, since the last trace call.
     callables: u32,
-    stack: StackEnd,
+    stack: Stack,
     /// The program that runs, for messages.
     running: &'c Cell<&'static str>,
     payload: &'c Cell<WordBuffer>,
@@ -74,7 +74,7 @@ impl Seen {
 impl<'c> Call<'c> {
     /// Inside of no other program.
     fn root(job: &'c Job<'c>, index: UVec3, running: &'c Cell<&'static str>, payload: &'c Cell<WordBuffer>) -> Self {
-        let stack = StackEnd::of_this_thread();
+        let stack = Stack::of_this_thread();
         Self { job, index, depth: 0, callables: 0, stack, running, payload, watch: None }
     }
 
@@ -94,8 +94,20 @@ impl<'c> Call<'c> {
                     .into(),
             )
         }
-        if self.stack.is_reached() {
-            overflow(self.job);
+        #[cold]
+        fn elsewhere() -> ! {
+            trap(
+                &rules::STACK,
+                "a program traces, calls or launches on another stack than its thread's, and nobody knows how deep that goes: \
+                 have the thread's own stack larger (`RUST_MIN_STACK=16777216` in the environment, or `stack_size` of a rayon pool that \
+                 the launch is made in)"
+                    .into(),
+            )
+        }
+        match self.stack.left() {
+            Left::Enough => {}
+            Left::Nothing => overflow(self.job),
+            Left::Elsewhere => elsewhere(),
         }
     }
 

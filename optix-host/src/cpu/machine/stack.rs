@@ -6,28 +6,46 @@ use std::cell::Cell;
 /// Left to the program that is called last, and to unwinding.
 const RESERVE: usize = 256 << 10;
 
-/// The lowest address that calls on this thread may reach.
+/// The addresses that calls on this thread may reach.
 #[derive(Clone, Copy)]
-pub(super) struct StackEnd(usize);
+pub(super) struct Stack {
+    end: usize,
+    begin: usize,
+}
 
-impl StackEnd {
+/// What is left of a stack.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Left {
+    Enough,
+    /// The stack goes no deeper.
+    Nothing,
+    /// A program has gone to another stack than its thread's, as the crate `stacker` does, whose end is not known.
+    Elsewhere,
+}
+
+impl Stack {
     /// Of the thread that asks.
     pub fn of_this_thread() -> Self {
         thread_local! {
-            static END: Cell<Option<usize>> = const { Cell::new(None) };
+            static STACK: Cell<Option<Stack>> = const { Cell::new(None) };
         }
-        Self(END.get().unwrap_or_else(|| {
+        STACK.get().unwrap_or_else(|| {
             let (low, size) = bounds();
-            let end = low + RESERVE.min(size / 4);
-            END.set(Some(end));
-            end
-        }))
+            let stack = Self { end: low + RESERVE.min(size / 4), begin: low.saturating_add(size) };
+            STACK.set(Some(stack));
+            stack
+        })
     }
 
-    /// Whether the stack goes no deeper.
+    /// How much is left. Below the end by more than the stack's reserve may be another stack, or a frame that large.
     #[inline]
-    pub fn is_reached(self) -> bool {
-        here() < self.0
+    pub fn left(self) -> Left {
+        let here = here();
+        if (self.end..=self.begin).contains(&here) {
+            return Left::Enough;
+        }
+        let within = self.end.saturating_sub(RESERVE)..self.end;
+        if within.contains(&here) { Left::Nothing } else { Left::Elsewhere }
     }
 }
 
@@ -59,8 +77,27 @@ fn bounds() -> (usize, usize) {
     assumed()
 }
 
-/// Half of what Rust gives its threads, from here on.
+/// Half of what Rust gives its threads, from here on; where the stack begins is not known.
 fn assumed() -> (usize, usize) {
-    let size = 1 << 20;
-    (here().saturating_sub(size), size)
+    let low = here().saturating_sub(1 << 20);
+    (low, usize::MAX - low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stack_that_is_not_the_threads_has_no_known_end() {
+        assert_eq!(Stack::of_this_thread().left(), Left::Enough);
+        let here = here();
+        for (end, begin, left) in [
+            (here - RESERVE, here + RESERVE, Left::Enough),
+            (here + RESERVE / 2, here + 8 * RESERVE, Left::Nothing),
+            (here + 2 * RESERVE, here + 8 * RESERVE, Left::Elsewhere),
+            (here - 8 * RESERVE, here - RESERVE, Left::Elsewhere),
+        ] {
+            assert_eq!(Stack { end, begin }.left(), left, "{end:x} {begin:x}");
+        }
+    }
 }
