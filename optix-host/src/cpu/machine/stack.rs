@@ -5,6 +5,8 @@ use std::cell::Cell;
 
 /// Left to the program that is called last, and to unwinding.
 const RESERVE: usize = 256 << 10;
+/// The same on small stacks, where a quarter is less: a program that calls another takes up to some kilobytes before it is asked again.
+const LEAST_RESERVE: usize = 48 << 10;
 
 /// The addresses that calls on this thread may reach.
 #[derive(Clone, Copy)]
@@ -31,7 +33,7 @@ impl Stack {
         }
         STACK.get().unwrap_or_else(|| {
             let (low, size) = bounds();
-            let stack = Self { end: low + RESERVE.min(size / 4), begin: low.saturating_add(size) };
+            let stack = Self { end: low + RESERVE.min(LEAST_RESERVE.max(size / 4)), begin: low.saturating_add(size) };
             STACK.set(Some(stack));
             stack
         })
