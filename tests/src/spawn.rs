@@ -120,6 +120,11 @@ impl Field {
         self.run::<leave>(island, starts, starts.len(), rays, f32::MAX, per_axis)
     }
 
+    /// What the rays of the starts meet that end at `reach`: the error of the hit, 0 where there is none.
+    pub fn met(&self, island: usize, starts: &[Start], reach: f32) -> Result<Vec<Departure>> {
+        self.run::<leave>(island, starts, starts.len(), 0, reach, false)
+    }
+
     /// Finds the largest offset that is too small: for `rays` directions, or with 0 for the given one.
     pub fn margins(&self, island: usize, starts: &[Start], rays: u32) -> Result<Vec<Departure>> {
         self.run::<margin>(island, starts, starts.len(), rays, f32::MAX, false)
