@@ -177,9 +177,8 @@ impl Cx {
     #[inline(always)]
     pub fn trace(&self, call: &TraceCall, mut payload: WordBuffer) -> WordBuffer {
         // What comes back where no program ran is a value of every type.
-        let frame = self.frame();
         if end::goes_on() {
-            frame.executor.trace(call, &mut payload);
+            self.frame().executor.trace(call, &mut payload);
             payload
         } else {
             WordBuffer::ZERO

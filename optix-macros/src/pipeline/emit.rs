@@ -552,7 +552,6 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
     let Some(params) = params else {
         return structure;
     };
-    let params_type = quote!(type Params = #params;);
     let (pipeline_name, exception, throws) = (name(ident), exception_type(pipeline), throws(pipeline));
     let mut seen = Vec::new();
     let rays = pipeline.rays.iter().filter(|ray| {
@@ -576,7 +575,7 @@ pub fn fallback(pipeline: &Pipeline) -> TokenStream {
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
             unsafe impl #krate::pipeline::Pipeline for #ident {
-                #params_type
+                type Params = #params;
                 type Exception = #exception;
                 const RAY_TYPES: __core::primitive::u32 = 0;
                 const CROSSINGS: &'static [#krate::layout::Crossing] = &[];

@@ -121,11 +121,7 @@ pub fn emit(program: &Program) -> TokenStream {
             (quote!(, __input: #input), quote!(-> #output))
         }
     };
-    let checked = checked_record(program);
-    if checked.is_some() {
-        let trusted = syn::parse_quote!(for<'__never> #record: #krate::record::SbtRecord);
-        generics.make_where_clause().predicates.push(trusted);
-    }
+    let checked = checked_record(program, &mut generics);
     let (impl_generics, _, where_clause) = generics.split_for_impl();
     let krate_there = moved(krate, program.context_span);
     let implemented = quote_spanned! {program.context_span=>
@@ -145,9 +141,9 @@ pub fn emit(program: &Program) -> TokenStream {
     quote!(#marker #items)
 }
 
-/// What reports once, where a program names its record, that it is none; the program's impl takes it on trust. `None` without a
-/// record, and for one that depends on a type parameter, which has bounds.
-fn checked_record(program: &Program) -> Option<TokenStream> {
+/// What reports once, where a program names its record, that it is none; the program's impl takes it on trust, which is added to
+/// its `generics`. `None` without a record, and for one that depends on a type parameter, which has bounds.
+fn checked_record(program: &Program, generics: &mut Generics) -> Option<TokenStream> {
     let record = program.record.as_ref()?;
     let mut parameters = program.generics.params.iter().filter_map(|parameter| match parameter {
         GenericParam::Type(parameter) => Some(&parameter.ident),
@@ -157,8 +153,11 @@ fn checked_record(program: &Program) -> Option<TokenStream> {
     if parameters.any(|parameter| mentions(record.to_token_stream(), &parameter.to_string())) {
         return None;
     }
+    let krate = &device_crate();
+    let trusted = syn::parse_quote!(for<'__never> #record: #krate::record::SbtRecord);
+    generics.make_where_clause().predicates.push(trusted);
     let span = place_of(record);
-    let krate = moved(&device_crate(), span);
+    let krate = moved(krate, span);
     Some(quote_spanned!(span=> const _: () = #krate::check::record::<#record>();))
 }
 
@@ -172,11 +171,7 @@ fn emit_callable(program: &Program) -> TokenStream {
     let context_argument = quote_spanned!(program.context_span=> __cx);
     let call = quote_spanned!(program.result_span=> #ident(#context_argument #record_argument #(, #names)*));
     let mut generics = without_defaults(&program.generics);
-    let checked = checked_record(program);
-    if checked.is_some() {
-        let trusted = syn::parse_quote!(for<'__never> #record: #krate::record::SbtRecord);
-        generics.make_where_clause().predicates.push(trusted);
-    }
+    let checked = checked_record(program, &mut generics);
     let (impl_generics, _, where_clause) = generics.split_for_impl();
     let trait_there = Ident::new(&kind.program_trait().to_string(), program.context_span);
     let krate_there = moved(krate, program.context_span);

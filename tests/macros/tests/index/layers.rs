@@ -1,5 +1,6 @@
 //! The layers of optix-host: no module uses one of its own layer or of a layer above.
 
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -20,47 +21,31 @@ const LAYERS: &[&[&str]] = &[
     &["cust"],
 ];
 
-/// Identifiers and single characters of a Rust file, each with its line; without comments, strings and lifetimes.
-fn tokens(text: &str) -> Vec<(usize, &str)> {
-    let bytes = text.as_bytes();
-    let (mut tokens, mut line, mut at) = (Vec::new(), 1, 0);
-    while at < bytes.len() {
-        let rest = &text[at..];
-        let is_word = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
-        let word = rest.bytes().take_while(|&byte| is_word(byte)).count();
-        let hashes = rest[word..].bytes().take_while(|&byte| byte == b'#').count();
-        let is_raw = ["r", "br", "cr"].contains(&&rest[..word]) && rest[word + hashes..].starts_with('"');
-        let len = if rest.starts_with("//") {
-            rest.find('\n').unwrap_or(rest.len())
-        } else if rest.starts_with("/*") {
-            rest.find("*/").map_or(rest.len(), |end| end + 2)
-        } else if is_raw {
-            let begin = word + hashes + 1;
-            let end = format!("\"{}", "#".repeat(hashes));
-            rest[begin..].find(&end).map_or(rest.len(), |found| begin + found + end.len())
-        } else if rest.starts_with('"') {
-            let mut escaped = true;
-            let inside = rest.bytes().take_while(|&byte| {
-                let ends = byte == b'"' && !escaped;
-                escaped = byte == b'\\' && !escaped;
-                !ends
-            });
-            (inside.count() + 1).min(rest.len())
-        } else if rest.starts_with("'\\") {
-            rest[3..].find('\'').map_or(rest.len(), |end| end + 4)
-        } else if let Some(rest) = rest.strip_prefix('\'') {
-            let char_len = rest.chars().next().map_or(0, char::len_utf8);
-            if rest[char_len..].starts_with('\'') { char_len + 2 } else { 1 }
-        } else {
-            let len = word.max(rest.chars().next().map_or(1, char::len_utf8));
-            if !rest.starts_with(char::is_whitespace) {
-                tokens.push((line, &rest[..len]));
+/// Identifiers and single characters of a Rust file, each with its line; without comments and literals.
+fn tokens(text: &str) -> Vec<(usize, String)> {
+    fn add(stream: TokenStream, tokens: &mut Vec<(usize, String)>) {
+        for tree in stream {
+            let line = tree.span().start().line;
+            match tree {
+                TokenTree::Group(group) => {
+                    let (open, close) = match group.delimiter() {
+                        Delimiter::Brace => ("{", "}"),
+                        Delimiter::Bracket => ("[", "]"),
+                        Delimiter::Parenthesis => ("(", ")"),
+                        Delimiter::None => ("", ""),
+                    };
+                    tokens.push((line, open.to_owned()));
+                    add(group.stream(), tokens);
+                    tokens.push((group.span_close().start().line, close.to_owned()));
+                }
+                TokenTree::Ident(ident) => tokens.push((line, ident.to_string())),
+                TokenTree::Punct(punct) => tokens.push((line, punct.to_string())),
+                TokenTree::Literal(_) => {}
             }
-            len
-        };
-        line += rest[..len].matches('\n').count();
-        at += len;
+        }
     }
+    let mut tokens = Vec::new();
+    add(text.parse().expect("a Rust file"), &mut tokens);
     tokens
 }
 
@@ -72,6 +57,7 @@ fn is_path_separator(tokens: &[(usize, &str)], at: usize) -> bool {
 /// their lines: `b` and `c` in `crate::{b::x, c}`, and `b` in `super::super::b` two levels below.
 fn root_names(text: &str, depth: usize) -> Vec<(usize, String)> {
     let tokens = tokens(text);
+    let tokens: Vec<(usize, &str)> = tokens.iter().map(|(line, token)| (*line, token.as_str())).collect();
     let mut names = Vec::new();
     // Whether each brace that is open belongs to a module.
     let mut braces = Vec::new();

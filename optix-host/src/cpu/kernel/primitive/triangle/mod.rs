@@ -167,38 +167,33 @@ impl AtGas<'_, '_> {
     /// Tests the triangles of a block that `used` has a bit for. Gives the new limit of depth, as [`Leaves::visit`] does.
     #[inline(always)]
     fn block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
-        let frame = &self.sink.place.space.frame;
+        let (frame, before) = (&self.sink.place.space.frame, self.sink.state.tmax);
         if self.far {
-            return self.far_block(simd, block, index, used, limit);
+            self.far_block(simd, block, index, used, limit);
+        } else {
+            self.meet(simd, block, &frame.shear, [frame.depth_min, limit], index, used);
         }
-        let mut sheared = Sheared::default();
-        let met = simd.triangles(block, &frame.shear, [frame.depth_min, limit], &mut sheared);
-        let before = self.sink.state.tmax;
-        self.meet(&frame.shear, met & used, &sheared, block, index);
         self.sink.state.limit(before, limit, frame)
     }
 
     /// [`AtGas::block`] where coordinates are so large that it is done with smaller ones.
     #[cold]
     #[inline(never)]
-    fn far_block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
+    fn far_block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) {
         let frame = &self.sink.place.space.frame;
-        let shear = frame.shear.shrunk();
-        let mut sheared = Sheared::default();
         let depths = [frame.depth_min * SHRINK, limit * SHRINK];
-        let met = simd.triangles(&block.shrunk(), &shear, depths, &mut sheared);
-        let before = self.sink.state.tmax;
-        self.meet(&shear, met & used, &sheared, block, index);
-        self.sink.state.limit(before, limit, frame)
+        self.meet(simd, &block.shrunk(), &frame.shear.shrunk(), depths, index, used);
     }
 
-    /// Decides about the triangles of a block in these lanes.
+    /// Decides about the triangles of a block that `used` has a bit for.
     #[inline(always)]
-    fn meet(&mut self, shear: &ShearRay, mut lanes: u32, sheared: &Sheared, block: &Block, index: usize) {
+    fn meet<S: Simd>(&mut self, simd: S, block: &Block, shear: &ShearRay, depths: [f32; 2], index: usize, used: u32) {
+        let mut sheared = Sheared::default();
+        let mut lanes = simd.triangles(block, shear, depths, &mut sheared) & used;
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize & (WIDTH - 1);
             lanes &= lanes - 1;
-            let Some(hit) = test::hit(shear, test::lane_of(sheared, lane)) else { continue };
+            let Some(hit) = test::hit(shear, test::lane_of(&sheared, lane)) else { continue };
             let primitive = block.primitives[lane];
             if self.sink.admits(hit.t, primitive) {
                 self.offer(hit, primitive, (index * WIDTH + lane) as u32);
