@@ -53,9 +53,10 @@ impl Device {
     ///
     /// Programs run on the threads' own stacks: 2 MiB each, unless `RUST_MIN_STACK` in the environment or the pool that a launch is
     /// made in says otherwise, and the calling thread's for small launches. Traces and calls that nest too deep
-    /// for that end the launch with an error, and so do those that a program makes on another stack. A program whose own functions recurse without an end, or that holds larger arrays
-    /// than the stack, ends the process, as any Rust program would: there is no program and no launch index in what Rust says
-    /// then. On a GPU a stack is some kilobytes, so bound the depth of what recurses.
+    /// for that end the launch with an error, and so do those that a program makes on another stack. A program whose own
+    /// functions recurse without an end, or that holds larger arrays than the stack, ends the process, as any Rust program
+    /// would: there is no program and no launch index in what Rust says then. On a GPU a stack is some kilobytes, so bound the
+    /// depth of what recurses.
     pub fn cpu() -> Result<Self> {
         Ok(Self::on_cpu(CpuBackend::new()))
     }

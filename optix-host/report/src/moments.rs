@@ -69,8 +69,8 @@ impl Pixel {
 }
 
 impl Moments {
-    /// An empty accumulator for a picture of `pixels` pixels. It takes 48 bytes for each, and as a `Vec` of that size it panics
-    /// or aborts where there is not so much memory.
+    /// An empty accumulator for a picture of `pixels` pixels. As a `Vec` of that size it panics or aborts where there is not so
+    /// much memory.
     #[must_use]
     pub fn new(pixels: usize) -> Self {
         Self { pixels: vec![Pixel::default(); pixels], rejected: Rejected::default() }
