@@ -1,10 +1,10 @@
 //! The machine that programs run on.
 
+use crate::Result;
 use crate::backend::Backend;
 use crate::cpu::CpuBackend;
 use crate::optix::{OptixBackend, OptixOptions};
-use crate::{Error, Result};
-use optix_device_rs::host::{Buffer, Buffer2d, shared};
+use optix_device_rs::host::{Buffer, Buffer2d, MemoryError, shared};
 use optix_device_rs::prelude::Element;
 use std::sync::Arc;
 
@@ -117,9 +117,8 @@ impl Device {
 
     /// A buffer of `len` elements, all bytes zero.
     pub fn zeroed<T: Element>(&self, len: usize) -> Result<Buffer<T>> {
-        let bytes = len.checked_mul(size_of::<T>()).ok_or_else(|| {
-            Error::Scene(format!("a buffer of {len} elements of {} bytes is larger than memory", size_of::<T>()))
-        })?;
+        let bytes = len.checked_mul(size_of::<T>());
+        let bytes = bytes.ok_or(MemoryError::TooLarge { elements: len, element: size_of::<T>() })?;
         let memory = self.backend.allocate(bytes, shared::width::<T>())?;
         // SAFETY: as many bytes as the elements have, aligned to 16 and more, zeroed, and nobody else's.
         Ok(unsafe { Buffer::from_memory(memory, len) })

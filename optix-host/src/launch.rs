@@ -1,6 +1,7 @@
 //! Launches of pipelines.
 
 use crate::backend::Running;
+use crate::error::LaunchError;
 use crate::limits::MAX_LAUNCH_SIZE;
 use crate::{Error, Pipeline, Result};
 use optix_device_rs::data::DeviceData;
@@ -29,25 +30,22 @@ impl<P: PipelineType> Pipeline<P> {
     }
 
     fn begin(&self, raygen: usize, params: &<P::Params as LaunchParams>::Host, dimensions: [u32; 3]) -> Result<Launch> {
-        let error = |what: String| Error::Launch { pipeline: self.plan.description.name, what };
+        let error = |error| Error::Launch { pipeline: self.plan.description.name, error };
         let size = dimensions.iter().map(|&d| u128::from(d)).product::<u128>();
-        let [w, h, d] = dimensions;
         if size == 0 {
-            return Err(error(format!("its dimensions {w} x {h} x {d} are empty")));
+            return Err(error(LaunchError::Empty { dimensions }));
         }
         if size > u128::from(MAX_LAUNCH_SIZE) {
-            return Err(error(format!(
-                "its dimensions {w} x {h} x {d} are more than 2^{} (guide 12)",
-                MAX_LAUNCH_SIZE.ilog2()
-            )));
+            return Err(error(LaunchError::TooLarge { dimensions }));
         }
         // SAFETY: the launch that is given the views keeps the owners.
         let mut keep = unsafe { KeepAlive::new() };
         let device_params = params.lower(&mut keep);
         if let Some(kept) = keep.foreign(self.device.backend.id()) {
-            return Err(error(format!("its parameters hold {} of another device", kept.kind())));
+            return Err(error(LaunchError::OfAnotherDevice { holds: kept.kind() }));
         }
-        keep.kept().iter().try_for_each(|kept| self.check("its parameters hold", kept)).map_err(error)?;
+        let checked = keep.kept().iter().try_for_each(|kept| self.check(kept));
+        checked.map_err(|reference| error(LaunchError::Parameters(reference)))?;
         let mut bytes = vec![0; size_of::<P::Params>()];
         device_params.write_to(&mut bytes);
         for bound in &self.plan.bound {

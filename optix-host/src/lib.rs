@@ -26,7 +26,7 @@ pub mod scene;
 
 pub use build::Scene;
 pub use device::{BackendKind, Device};
-pub use error::{Error, Result};
+pub use error::{Error, LaunchError, LayoutDifference, PipelineError, ReferenceError, Result, SceneError};
 pub use glam;
 pub use launch::Launch;
 pub use optix::OptixOptions;

@@ -4,6 +4,7 @@ pub use crate::plan::{Explanation, Note};
 
 use crate::backend::Linked;
 use crate::build::Scene;
+use crate::error::{PipelineError, ReferenceError};
 use crate::plan::{BoundValue, Plan};
 use crate::sbt::ShaderBindingTable;
 use crate::scene::{AccelShared, CallableShared};
@@ -42,27 +43,19 @@ impl<P: PipelineType> Pipeline<P> {
     }
 
     /// Whether this pipeline's programs may use what its parameters or a record hold: its table and its flags cover that.
-    pub(crate) fn check(&self, holder: &str, kept: &Kept) -> Result<(), String> {
-        let (made, more) = match kept {
-            Kept::Traced(world) => {
-                (world.scene::<AccelShared>().map(|accel| (accel.scene, accel.slots > self.slots)), "materials")
-            }
+    pub(crate) fn check(&self, kept: &Kept) -> Result<(), ReferenceError> {
+        let made = match kept {
+            Kept::Traced(world) => world.scene::<AccelShared>().map(|accel| (accel.scene, accel.slots > self.slots)),
             Kept::Callables(_, shared) => {
-                let table = shared.downcast_ref::<CallableShared>();
-                (table.map(|table| (table.scene, table.end > self.callables)), "callables")
+                shared.downcast_ref::<CallableShared>().map(|table| (table.scene, table.end > self.callables))
             }
             Kept::Memory(_) | Kept::Read(_) => return Ok(()),
         };
+        let held = kept.kind();
         match made {
-            None => return Err(format!("{holder} {} that no scene made", kept.kind())),
-            Some((scene, _)) if scene != self.scene => {
-                return Err(format!("{holder} {} of another scene than the pipeline's", kept.kind()));
-            }
-            Some((_, true)) => {
-                return Err(format!(
-                    "the scene got more {more} after the pipeline was built: build the pipeline again"
-                ));
-            }
+            None => return Err(ReferenceError::NoScene { held }),
+            Some((scene, _)) if scene != self.scene => return Err(ReferenceError::AnotherScene { held }),
+            Some((_, true)) => return Err(ReferenceError::MadeLater { held }),
             Some((_, false)) => {}
         }
         let Kept::Traced(world) = kept else { return Ok(()) };
@@ -100,13 +93,9 @@ impl<'s, P: PipelineType> PipelineBuilder<'s, P> {
         let state = &self.scene.state;
         let device = self.scene.device.clone();
         let ptx = self.ptx.filter(|ptx| !ptx.is_empty());
+        let error = |error| Error::Pipeline { pipeline: P::DESCRIPTION.name, error };
         if device.kind() == BackendKind::Optix && ptx.is_none() {
-            return Err(Error::Pipeline {
-                pipeline: P::DESCRIPTION.name,
-                what: "OptiX needs the shaders' PTX: give it with `.ptx(optix_host::ptx!(..))`, and where it is empty run \
-                       `cargo optix setup` and build again"
-                    .into(),
-            });
+            return Err(error(PipelineError::NoPtx));
         }
         let plan = Arc::new(Plan::new(P::DESCRIPTION, state, ptx, self.bound)?);
         let sbt = ShaderBindingTable::of(state, &plan)?;
@@ -115,8 +104,8 @@ impl<'s, P: PipelineType> PipelineBuilder<'s, P> {
         let (slots, callables) = (state.slots.len() as u32, state.callables.len() as u32);
         let pipeline =
             Pipeline { linked, plan, device, scene: state.id, slots, callables, records, pipeline: PhantomData };
-        let checked = pipeline.records.iter().try_for_each(|kept| pipeline.check("a record holds", kept));
-        checked.map_err(|what| Error::Pipeline { pipeline: P::DESCRIPTION.name, what })?;
+        let checked = pipeline.records.iter().try_for_each(|kept| pipeline.check(kept));
+        checked.map_err(|reference| error(PipelineError::Record(reference)))?;
         Ok(pipeline)
     }
 }

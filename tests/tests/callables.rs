@@ -232,7 +232,10 @@ fn callables_of_scenes_do_not_mix() {
     says(other.callables(std::slice::from_ref(&foreign)), &["another scene"]);
     let mut frame = a.frame(0, NOBODY).0;
     frame.textures = a.scene.callables(&[foreign]).unwrap();
-    says(a.pipeline.launch(&frame, [1, 1, 1]), &["more callables after the pipeline was built"]);
+    says(
+        a.pipeline.launch(&frame, [1, 1, 1]),
+        &["a callable whose records the scene got after the pipeline was built"],
+    );
     let mut elsewhere = Scene::<Calls>::new(&Device::cpu().unwrap());
     says(
         elsewhere.callable::<sum>(SumHost { of: std::array::from_fn(|_| scaled(&mut a.scene, Vec3::ONE)) }),

@@ -3,7 +3,6 @@
 use crate::view::Element;
 use core::marker::PhantomData;
 use std::any::Any;
-use std::string::String;
 use std::sync::Arc;
 use std::vec::Vec;
 
@@ -11,16 +10,99 @@ use std::vec::Vec;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct DeviceId(pub u64);
 
-/// An error of device memory, from the driver.
-#[derive(Clone, PartialEq, Eq)]
-pub struct MemoryError(pub String);
+/// What can go wrong with device memory.
+#[derive(Clone)]
+#[non_exhaustive]
+pub enum MemoryError {
+    /// Elements for a buffer that has more or fewer.
+    Length {
+        /// How many elements were given.
+        given: usize,
+        /// How many the buffer has.
+        buffer: usize,
+    },
+    /// A buffer that has more or fewer elements than the two-dimensional one that it is to be.
+    Size {
+        /// How many elements the buffer has.
+        buffer: usize,
+        /// Width and height.
+        size: [u32; 2],
+    },
+    /// More bytes than addresses can count.
+    TooLarge {
+        /// How many elements.
+        elements: usize,
+        /// Bytes of each.
+        element: usize,
+    },
+    /// More bytes than there are.
+    OutOfMemory {
+        /// How many bytes were asked for.
+        bytes: usize,
+    },
+    /// A copy that goes beyond the memory.
+    OutOfRange {
+        /// Where it begins, in bytes.
+        offset: usize,
+        /// How many bytes.
+        bytes: usize,
+        /// How many bytes the memory has.
+        memory: usize,
+    },
+    /// A copy that begins or ends within what programs access at once.
+    PartialWord {
+        /// Where it begins, in bytes.
+        offset: usize,
+        /// How many bytes.
+        bytes: usize,
+        /// How many bytes programs access at once.
+        width: usize,
+    },
+    /// What the driver says.
+    Driver(Arc<dyn std::error::Error + Send + Sync>),
+}
 
 impl core::fmt::Display for MemoryError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(&self.0)
+        let remedy = match self {
+            Self::Length { given, buffer } => {
+                write!(f, "{given} elements were given for a buffer of {buffer}")?;
+                "give as many as the buffer has, or make another buffer"
+            }
+            Self::Size { buffer, size: [width, height] } => {
+                write!(f, "a buffer of {buffer} elements is not {width} x {height}")?;
+                "make the buffer as long as width times height"
+            }
+            Self::TooLarge { elements, element } => {
+                write!(f, "a buffer of {elements} elements of {element} bytes is larger than memory can be")?;
+                "make a smaller buffer"
+            }
+            Self::OutOfMemory { bytes } => {
+                write!(f, "there is not enough memory for {bytes} bytes")?;
+                "free memory, or make a smaller buffer"
+            }
+            Self::OutOfRange { offset, bytes, memory } => {
+                write!(f, "{bytes} bytes at {offset} are outside of a buffer of {memory} bytes")?;
+                "copy less"
+            }
+            Self::PartialWord { offset, bytes, width } => {
+                write!(f, "{bytes} bytes at {offset} are not whole words of {width} bytes")?;
+                "copy whole elements"
+            }
+            Self::Driver(error) => return core::fmt::Display::fmt(error, f),
+        };
+        write!(f, "\n  what to do: {remedy}")
     }
 }
-impl std::error::Error for MemoryError {}
+
+impl std::error::Error for MemoryError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Driver(error) => error.source(),
+            _ => None,
+        }
+    }
+}
 
 /// As [`Display`](core::fmt::Display): what `main` prints of an error that it returns, and `unwrap` of one that it meets.
 impl core::fmt::Debug for MemoryError {
@@ -114,11 +196,7 @@ impl<T: Element> Buffer<T> {
     /// Overwrites the buffer; `elements` is as long as the buffer.
     pub fn write(&self, elements: &[T]) -> Result<(), MemoryError> {
         if elements.len() != self.len {
-            return Err(MemoryError(std::format!(
-                "{} elements were given for a buffer of {}",
-                elements.len(),
-                self.len
-            )));
+            return Err(MemoryError::Length { given: elements.len(), buffer: self.len });
         }
         // SAFETY: an `Element` has no padding, so all its bytes are initialised.
         let bytes = unsafe { core::slice::from_raw_parts(elements.as_ptr().cast::<u8>(), size_of_val(elements)) };
@@ -149,8 +227,7 @@ impl<T: Element> Buffer2d<T> {
     pub fn new(buffer: Buffer<T>, size: [u32; 2]) -> Result<Self, MemoryError> {
         let [width, height] = size;
         if buffer.len() as u64 != u64::from(width) * u64::from(height) {
-            let len = buffer.len();
-            return Err(MemoryError(std::format!("a buffer of {len} elements is not {width} x {height}")));
+            return Err(MemoryError::Size { buffer: buffer.len(), size });
         }
         Ok(Self { buffer, size })
     }

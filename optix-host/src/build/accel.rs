@@ -1,8 +1,8 @@
 //! Acceleration structures are built: of geometry (GAS) and of instances (IAS) (guide 5).
 
 use super::Scene;
-use crate::scene::{Accel, GasMember, Instance};
-use crate::{Error, Result};
+use crate::Result;
+use crate::scene::{Accel, GasMember, Instance, SceneError};
 use optix_device_rs::attributes::{Geometry as GeometryKindOf, Triangles};
 use optix_device_rs::host::{InstanceTable, TriangleTable};
 use optix_device_rs::pipeline::Pipeline;
@@ -80,7 +80,7 @@ impl<P: Pipeline> IasBuilder<'_, P> {
     /// table is what a field of type [`Instances`](optix_device_rs::accel::Instances) holds.
     pub fn build_with_instances(self) -> Result<(Accel<P>, InstanceTable)> {
         let len = u32::try_from(self.instances.len())
-            .map_err(|_| Error::Scene(format!("{} instances are more than an IAS has", self.instances.len())))?;
+            .map_err(|_| SceneError::TooMany { what: "instances in one IAS", count: self.instances.len() })?;
         let accel = self.build_for(true)?;
         // SAFETY: built for it, with so many instances.
         let table = unsafe { InstanceTable::new(accel.shared.world(), len) };

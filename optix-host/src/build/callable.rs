@@ -1,8 +1,8 @@
 //! Records of callables are added (guide 15).
 
 use super::Scene;
-use crate::scene::{CallableState, numbered};
-use crate::{Error, Result};
+use crate::Result;
+use crate::scene::{CallableState, SceneError, numbered};
 use optix_device_rs::host::{CallableRecord, CallableTable};
 use optix_device_rs::pipeline::{HasCallable, Pipeline};
 use optix_device_rs::record::SbtRecord;
@@ -14,7 +14,7 @@ impl<P: Pipeline> Scene<P> {
     /// launch parameters.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a record that holds what another device or scene made.
+    /// [`SceneError`] for a record that holds what another device or scene made.
     pub fn callable<Prog>(
         &mut self,
         record: <P::Record as SbtRecord>::Host,
@@ -34,15 +34,15 @@ impl<P: Pipeline> Scene<P> {
     /// several times in one.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a callable of another scene.
+    /// [`SceneError`] for a callable of another scene.
     pub fn callables<F, K>(&mut self, callables: &[CallableRecord<F, K>]) -> Result<CallableTable<F, K>> {
         let states = callables
             .iter()
-            .map(|callable| self.state.callable(callable).cloned())
-            .collect::<Option<Vec<_>>>()
-            .ok_or_else(|| {
-                Error::Scene("a table of callables holds one of another scene; make it with this scene".into())
-            })?;
+            .enumerate()
+            .map(|(i, callable)| {
+                self.state.callable(callable).cloned().ok_or(SceneError::ForeignCallable { callable: i })
+            })
+            .collect::<Result<Vec<_>, _>>()?;
         let len = numbered(states.len(), "callables")?;
         let (first, shared) = self.push(states)?;
         // SAFETY: copies of records of programs with this signature and kind; otherwise as above.

@@ -3,11 +3,11 @@
 use super::kernel::{self, AabbInput, Accel, Gas, GeometryFlags, Ias, Instance, SbtMapping, TriangleInput};
 use super::machine::{self, Callables, Job, Reached};
 use super::memory::CpuMemory;
+use crate::Result;
 use crate::backend::{Backend, Linked, Running, next_device_id};
 use crate::plan::Plan;
 use crate::sbt::ShaderBindingTable;
-use crate::scene::{BuildInput, BuiltAccel, GasInput, GeometryData, IasInput};
-use crate::{Error, Result};
+use crate::scene::{BuildInput, BuiltAccel, GasInput, GeometryData, IasInput, SceneError};
 use optix_device_rs::host::{DeviceId, GeometryKind, Handle, Kept, Memory};
 use std::any::Any;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -61,11 +61,9 @@ impl Backend for CpuBackend {
     }
 
     fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel> {
-        let instances = input.instances.iter().map(|instance| {
-            let child =
-                instance.child.owner.downcast_ref::<CpuAccel>().ok_or_else(|| {
-                    Error::Scene("an instance is of an acceleration structure of another device".into())
-                })?;
+        let instances = input.instances.iter().enumerate().map(|(i, instance)| {
+            let child = instance.child.owner.downcast_ref::<CpuAccel>();
+            let child = child.ok_or(SceneError::InstanceOfAnotherDevice { instance: i })?;
             Ok(Instance {
                 transform: instance.transform,
                 instance_id: instance.id,
@@ -81,9 +79,8 @@ impl Backend for CpuBackend {
     /// Numbers never come twice, so that a reference which a program kept from another scene's launch names nothing.
     fn number_callables(&self, _: u32, count: u32) -> Result<u32> {
         static NEXT: AtomicU32 = AtomicU32::new(0);
-        NEXT.fetch_update(Relaxed, Relaxed, |next| next.checked_add(count)).map_err(|_| {
-            Error::Scene("the scenes of this process have had more callables than 32 bits can number".into())
-        })
+        let next = NEXT.fetch_update(Relaxed, Relaxed, |next| next.checked_add(count));
+        next.map_err(|_| SceneError::TooManyCallables.into())
     }
 
     fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable, kept: &[Kept]) -> Result<Box<dyn Linked>> {

@@ -27,9 +27,7 @@ impl CpuMemory {
     pub fn zeroed(device: DeviceId, len: usize, width: usize) -> Result<Self, MemoryError> {
         let count = len.div_ceil(size_of::<Block>());
         let mut blocks = Vec::new();
-        blocks
-            .try_reserve_exact(count)
-            .map_err(|_| MemoryError(format!("there is not enough memory for {len} bytes")))?;
+        blocks.try_reserve_exact(count).map_err(|_| MemoryError::OutOfMemory { bytes: len })?;
         blocks.resize_with(count, || Block(UnsafeCell::new([0; 16])));
         Ok(Self { device, handle: Handle::issue(), blocks: blocks.into(), len, width })
     }
@@ -46,10 +44,10 @@ impl CpuMemory {
     /// Where `len` bytes at `offset` begin.
     fn place(&self, offset: usize, len: usize) -> Result<*mut u8, MemoryError> {
         if offset.checked_add(len).is_none_or(|end| end > self.len) {
-            return Err(MemoryError(format!("{len} bytes at {offset} are outside a buffer of {} bytes", self.len)));
+            return Err(MemoryError::OutOfRange { offset, bytes: len, memory: self.len });
         }
         if !offset.is_multiple_of(self.width) || !len.is_multiple_of(self.width) {
-            return Err(MemoryError(format!("{len} bytes at {offset} are not whole words of {} bytes", self.width)));
+            return Err(MemoryError::PartialWord { offset, bytes: len, width: self.width });
         }
         Ok(self.bytes().as_ptr().wrapping_add(offset))
     }

@@ -1,27 +1,24 @@
 //! What can be wrong with geometry.
 
+use super::words::{Words, errors};
 use crate::limits::MAX_PRIMITIVES;
 use glam::Vec3;
-use std::fmt;
 
-/// What is wrong with geometry.
-#[derive(Clone, PartialEq, thiserror::Error)]
+/// What is wrong with geometry. Vertices and primitives are counted from 0.
+#[derive(Clone, PartialEq)]
 #[non_exhaustive]
 pub enum GeometryError {
     /// No primitive.
-    #[error("{what} has no primitives")]
     Empty {
         /// Which kind of geometry.
         what: &'static str,
     },
     /// Not a multiple of three.
-    #[error("{count} positions without indices are not whole triangles: give a multiple of 3, or indices")]
     PartialTriangle {
-        /// How many there are.
+        /// How many positions there are.
         count: usize,
     },
     /// An index without a vertex.
-    #[error("triangle {triangle} has index {index}, but there are {vertices} vertices")]
     IndexOutOfRange {
         /// Which triangle.
         triangle: usize,
@@ -31,7 +28,6 @@ pub enum GeometryError {
         vertices: usize,
     },
     /// NaN or infinity.
-    #[error("vertex {vertex} is not finite: {value}")]
     NonFiniteVertex {
         /// Which vertex.
         vertex: usize,
@@ -39,9 +35,6 @@ pub enum GeometryError {
         value: Vec3,
     },
     /// A box that is not one.
-    #[error(
-        "box {index} is not finite with min <= max: {min} to {max}; one without end reaches from f32::MIN to f32::MAX"
-    )]
     BadBox {
         /// Which box.
         index: usize,
@@ -51,16 +44,43 @@ pub enum GeometryError {
         max: Vec3,
     },
     /// More than an acceleration structure takes.
-    #[error("{count} primitives are more than the 2^{} of an acceleration structure (guide 12)", MAX_PRIMITIVES.ilog2())]
     TooMany {
         /// How many there are.
         count: usize,
     },
 }
 
-/// As [`Display`](fmt::Display): what `main` prints of an error that it returns, and `unwrap` of one that it meets.
-impl fmt::Debug for GeometryError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
+impl GeometryError {
+    fn words(&self) -> Words {
+        let (problem, remedy): (String, &str) = match *self {
+            Self::Empty { what } => {
+                (format!("{what} has no primitives"), "give it at least one, or leave the geometry out")
+            }
+            Self::PartialTriangle { count } => (
+                format!("{count} positions without indices are not whole triangles"),
+                "give a multiple of 3 positions, or give indices",
+            ),
+            Self::IndexOutOfRange { triangle, index, vertices } => (
+                format!("triangle {triangle} has index {index}, but there are {vertices} vertices"),
+                "correct the indices, which count the vertices from 0",
+            ),
+            Self::NonFiniteVertex { vertex, value } => {
+                (format!("vertex {vertex} is not finite: {value}"), "give all of its coordinates finite values")
+            }
+            Self::BadBox { index, min, max } => (
+                format!("box {index} is not finite with min <= max: {min} to {max}"),
+                "correct its corners; a box without end reaches from f32::MIN to f32::MAX",
+            ),
+            Self::TooMany { count } => (
+                format!(
+                    "{count} primitives are more than the 2^{} of an acceleration structure (guide 12)",
+                    MAX_PRIMITIVES.ilog2()
+                ),
+                "split the geometry over several structures, and put those into an IAS",
+            ),
+        };
+        (problem, remedy.into())
     }
 }
+
+errors!(GeometryError);

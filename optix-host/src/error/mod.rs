@@ -1,12 +1,22 @@
-//! What can go wrong on the host. Each message says what was asked, what is wrong, and what to do.
+//! What can go wrong on the host: an enum for each area, whose variants name what is wrong by fields. Each says what is wrong
+//! and where, and in a second line what to do about it.
 
 mod build;
 mod driver;
 mod geometry;
+mod launch;
+mod pipeline;
+mod reference;
+mod scene;
+mod words;
 
 pub use build::BuildError;
 pub use driver::{CudaFailure, DriverError, LogMessage, OptixFailure};
 pub use geometry::GeometryError;
+pub use launch::LaunchError;
+pub use pipeline::{LayoutDifference, PipelineError};
+pub use reference::ReferenceError;
+pub use scene::SceneError;
 
 use optix_device_rs::host::MemoryError;
 use std::fmt;
@@ -19,26 +29,26 @@ pub type Result<T, E = Error> = core::result::Result<T, E>;
 #[non_exhaustive]
 pub enum Error {
     /// Geometry that no acceleration structure can be built from.
-    #[error("{0}")]
+    #[error(transparent)]
     Geometry(#[from] GeometryError),
     /// A scene that does not fit together.
-    #[error("{0}")]
-    Scene(String),
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// A pipeline that can't be built for this scene or device.
-    #[error("pipeline {pipeline}: {what}")]
+    #[error("pipeline {pipeline}: {error}")]
     Pipeline {
         /// The pipeline's name.
         pipeline: &'static str,
-        /// What is wrong, and what to do.
-        what: String,
+        /// What is wrong.
+        error: PipelineError,
     },
     /// A launch that can't begin.
-    #[error("launch of pipeline {pipeline}: {what}")]
+    #[error("launch of pipeline {pipeline}: {error}")]
     Launch {
         /// The pipeline's name.
         pipeline: &'static str,
-        /// What is wrong, and what to do.
-        what: String,
+        /// What is wrong.
+        error: LaunchError,
     },
     /// A program that went wrong on the CPU.
     #[error("program {program} at launch index {index:?}: {what}")]
@@ -54,7 +64,7 @@ pub enum Error {
     #[error("OptiX is not available: {0}")]
     NoOptix(#[source] DriverError),
     /// An error of the CUDA or OptiX driver.
-    #[error("{0}")]
+    #[error(transparent)]
     Driver(#[from] DriverError),
     /// An error of a copy to or from device memory.
     #[error("device memory: {0}")]
@@ -82,9 +92,10 @@ mod tests {
         let boxed: Box<dyn std::error::Error> = error.into();
         assert_eq!(
             format!("{boxed:?}"),
-            "4 positions without indices are not whole triangles: give a multiple of 3, or indices"
+            "4 positions without indices are not whole triangles\n  \
+             what to do: give a multiple of 3 positions, or give indices"
         );
-        let error: Box<dyn std::error::Error> = MemoryError("the copy failed".into()).into();
-        assert_eq!(format!("{error:?}"), "the copy failed");
+        let error: Box<dyn std::error::Error> = MemoryError::Length { given: 2, buffer: 3 }.into();
+        assert!(format!("{error:?}").starts_with("2 elements were given for a buffer of 3\n"), "{error:?}");
     }
 }

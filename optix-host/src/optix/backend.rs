@@ -8,9 +8,10 @@ use super::driver::{
 };
 use super::{OptixOptions, feedback};
 use crate::backend::{Backend, Linked, Running, next_device_id};
+use crate::error::PipelineError;
 use crate::plan::{Graph, Plan};
 use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
-use crate::scene::{BuildInput, BuiltAccel, GasInput, GeometryData, IasInput};
+use crate::scene::{BuildInput, BuiltAccel, GasInput, GeometryData, IasInput, SceneError};
 use crate::{Error, Result};
 use optix_device_rs::host::{self as device, DeviceId, GeometryKind, Kept, Memory, MemoryError};
 use std::collections::HashMap;
@@ -84,11 +85,9 @@ impl Backend for OptixBackend {
     }
 
     fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel> {
-        let instances = input.instances.iter().map(|instance| {
-            let child =
-                instance.child.owner.downcast_ref::<Accel>().ok_or_else(|| {
-                    Error::Scene("an instance is of an acceleration structure of another device".into())
-                })?;
+        let instances = input.instances.iter().enumerate().map(|(i, instance)| {
+            let child = instance.child.owner.downcast_ref::<Accel>();
+            let child = child.ok_or(SceneError::InstanceOfAnotherDevice { instance: i })?;
             Ok(Instance {
                 transform: instance.transform,
                 id: instance.id,
@@ -114,7 +113,7 @@ pub(crate) struct OptixMemory {
 }
 
 fn memory_error(error: driver::Error) -> MemoryError {
-    MemoryError(error.to_string())
+    MemoryError::Driver(Arc::new(error))
 }
 
 // SAFETY: the buffer has so many bytes on the GPU, and is freed after the launches that were begun before.
@@ -361,7 +360,7 @@ fn payload_types(plan: &Plan) -> Result<Vec<PayloadType>> {
         let semantics = ray.payload.semantics.iter().map(|&bits| PayloadSemantics::from_bits(bits));
         let semantics = semantics.collect::<Option<Vec<_>>>().ok_or_else(|| Error::Pipeline {
             pipeline: plan.description.name,
-            what: format!("payload {} has semantics bits that OptiX does not know", ray.payload.name),
+            error: PipelineError::PayloadSemantics { payload: ray.payload.name },
         })?;
         Ok(PayloadType { semantics })
     });

@@ -1,5 +1,6 @@
 //! Launch parameters that are constants of a pipeline (guide 6.5.1).
 
+use crate::error::LaunchError;
 use optix_device_rs::params::Field;
 
 /// A bound parameter.
@@ -11,17 +12,13 @@ pub(crate) struct BoundValue {
 
 impl BoundValue {
     /// Whether a launch's parameters have the bound value (guide 6.5.1: they must).
-    pub fn check(&self, params: &[u8]) -> Result<(), String> {
+    pub fn check(&self, params: &[u8]) -> Result<(), LaunchError> {
         let given = &params[self.field.offset..self.field.offset + self.field.size];
         if given == self.bytes {
             Ok(())
         } else {
-            Err(format!(
-                "its parameter `{}` differs from the value that the pipeline was built with ({} against {})",
-                self.field.name,
-                show(given),
-                show(&self.bytes)
-            ))
+            let (parameter, given, bound) = (self.field.name, show(given), self.value());
+            Err(LaunchError::BoundValue { parameter, given, bound })
         }
     }
 

@@ -1,5 +1,6 @@
 //! Which programs a launch reaches, and how deep their calls nest (guide 6.7, 6.8).
 
+use crate::error::PipelineError;
 use crate::limits::{MAX_CALLABLE_DEPTH, MAX_TRACE_DEPTH};
 use crate::{Error, Result};
 use optix_device_rs::host::{Entry, PipelineDescription};
@@ -109,7 +110,7 @@ impl Depths {
         module: Option<&Module<'_>>,
         note: &mut impl FnMut(&'static str, String, String),
     ) -> Result<Self> {
-        let error = |what: String| Error::Pipeline { pipeline: description.name, what };
+        let error = |error| Error::Pipeline { pipeline: description.name, error };
         let programs = module.map(|module| programs(entries, module).map_err(error)).transpose()?;
         let programs = programs.as_deref();
         let (trace, is_a_promise, why) = trace(description, programs).map_err(error)?;
@@ -147,7 +148,7 @@ impl Depths {
         &mut self,
         description: &PipelineDescription,
         programs: Option<&[Program<'_, '_>]>,
-    ) -> Result<(), String> {
+    ) -> Result<(), PipelineError> {
         let is_state = |place| matches!(place, Place::RayGen | Place::Shading(_) | Place::Continuation);
         let Some(programs) = programs else {
             let depth = description.callable_depth.unwrap_or(MAX_CALLABLE_DEPTH);
@@ -160,20 +161,13 @@ impl Depths {
             let (roots, leads_to) = calls(programs, &callables, kind, from);
             match nesting(&leads_to, &roots, description.callable_depth) {
                 Ok(Nesting::Known(depth) | Nesting::Promised(depth)) => Ok(depth),
-                Err(Misfit::Endless(callable)) => Err(format!(
-                    "its {} callables call each other, and `{}` can come to be called inside of itself, so nothing bounds how \
-                     deep: state `callable_depth: N` in `pipeline!`, the most callables that run one inside of the other",
-                    kind.name,
-                    function(callable)
-                )),
-                Err(Misfit::Deeper(chain, stated)) => Err(format!(
-                    "`callable_depth: {stated}` is stated in `pipeline!`, but its {} callables can be called {} deep: {}; state \
-                     {} or more, or call callables of another signature there",
-                    kind.name,
-                    chain.len(),
-                    chain.iter().map(|&at| format!("`{}`", function(at))).collect::<Vec<_>>().join(" calls "),
-                    chain.len()
-                )),
+                Err(Misfit::Endless(callable)) => {
+                    Err(PipelineError::EndlessCallables { kind: kind.name, callable: function(callable) })
+                }
+                Err(Misfit::Deeper(chain, stated)) => {
+                    let chain = chain.into_iter().map(function).collect();
+                    Err(PipelineError::CallableDepth { kind: kind.name, stated, chain })
+                }
             }
         };
         self.continuation = depth(&CONTINUATION, is_state)?;
@@ -201,14 +195,11 @@ struct Program<'e, 'a> {
     called: Option<Vec<Prototype>>,
 }
 
-fn programs<'e, 'a>(entries: &'e [Reached], module: &Module<'a>) -> Result<Vec<Program<'e, 'a>>, String> {
+fn programs<'e, 'a>(entries: &'e [Reached], module: &Module<'a>) -> Result<Vec<Program<'e, 'a>>, PipelineError> {
     let program = |reached: &'e Reached| {
         let functions = module.reached(reached.name);
         if functions.is_empty() {
-            return Err(format!(
-                "the PTX has no entry {}: it is of another build or crate than the host's pipeline",
-                reached.name
-            ));
+            return Err(PipelineError::MissingEntry { entry: reached.name });
         }
         let calls = functions.iter().flat_map(|function| function.calls()).map(|call| call.function).collect();
         let prototype = functions[0].prototype.clone();
@@ -260,10 +251,10 @@ fn calls(
 fn trace(
     description: &PipelineDescription,
     programs: Option<&[Program<'_, '_>]>,
-) -> Result<(u32, bool, String), String> {
+) -> Result<(u32, bool, String), PipelineError> {
     let stated = description.trace_depth;
     if let Some(depth) = stated.filter(|&depth| depth > MAX_TRACE_DEPTH) {
-        return Err(format!("trace_depth {depth} is more than {MAX_TRACE_DEPTH} (guide 12)"));
+        return Err(PipelineError::TraceDepthLimit { stated: depth });
     }
     let Some(programs) = programs else {
         return Ok(match stated {
@@ -280,10 +271,7 @@ fn trace(
             return Ok((depth, true, why));
         }
         (Err(program), None) => {
-            return Err(format!(
-                "the payload type of a trace call in `{program}` is not a constant, so the trace depth is not known: state \
-                 `trace_depth: N` in `pipeline!`"
-            ));
+            return Err(PipelineError::UnknownTraceDepth { program });
         }
     };
     let ray = |ray: usize| description.rays[ray].payload.name;
@@ -299,22 +287,11 @@ fn trace(
         Ok(Nesting::Promised(depth)) => {
             Ok((depth, true, "stated in the pipeline's declaration: the programs trace rays recursively".into()))
         }
-        Err(Misfit::Endless(node)) => Err(format!(
-            "its programs trace rays recursively, and a ray `{}` can lead to another, so nothing bounds the trace depth: state \
-             `trace_depth: N` in `pipeline!`",
-            ray(node)
-        )),
+        Err(Misfit::Endless(node)) => Err(PipelineError::EndlessTraces { ray: ray(node) }),
         Err(Misfit::Deeper(chain, stated)) => {
             let from = core::iter::once(None).chain(chain.iter().copied().map(Some));
-            let steps =
-                from.zip(&chain).map(|(from, &to)| format!("`{}` traces `{}`", traces.who[&(from, to)], ray(to)));
-            Err(format!(
-                "`trace_depth: {stated}` is stated in `pipeline!`, but its programs trace rays {} deep: {}; state {} or more, or \
-                 leave `trace_depth` out, which makes it what the programs need",
-                chain.len(),
-                steps.collect::<Vec<_>>().join(", "),
-                chain.len()
-            ))
+            let chain = from.zip(&chain).map(|(from, &to)| (traces.who[&(from, to)], ray(to))).collect();
+            Err(PipelineError::TraceDepth { stated, chain })
         }
     }
 }

@@ -8,6 +8,7 @@ pub(crate) use bind::BoundValue;
 pub(crate) use depth::Depths;
 pub use explain::{Explanation, Note};
 
+use crate::error::{LayoutDifference, PipelineError, ReferenceError};
 use crate::scene::SceneState;
 use crate::{Error, Result};
 use core::fmt;
@@ -35,6 +36,15 @@ impl Graph {
         }
     }
 
+    /// For messages.
+    fn words(self) -> &'static str {
+        match self {
+            Self::SingleGas => "a single GAS",
+            Self::SingleLevelInstancing => "one level of instances",
+            Self::Any => "any graph",
+        }
+    }
+
     /// Of a scene with so many levels of instances, where the `world()` of structures with the levels in `taken` (bit `n`: n levels)
     /// was taken. With the reason.
     fn of_roots(depth: u32, taken: u32) -> (Self, String) {
@@ -46,16 +56,6 @@ impl Graph {
                 (Self::Any, reason)
             }
         }
-    }
-}
-
-impl fmt::Display for Graph {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::SingleGas => "a single GAS",
-            Self::SingleLevelInstancing => "one level of instances",
-            Self::Any => "any graph",
-        })
     }
 }
 
@@ -112,7 +112,7 @@ impl Plan {
 
         let depth = scene.usage.depths.iter().copied().max().unwrap_or(0);
         let (graph, reason) = Graph::of_roots(depth, scene.usage.roots.load(Relaxed));
-        note("traversable graph", graph.to_string(), reason);
+        note("traversable graph", graph.words().into(), reason);
         note("motion", "off".into(), "nothing in the scene moves".into());
 
         let used: BTreeSet<usize> = scene.slots.iter().map(|&(_, group)| group as usize).collect();
@@ -210,20 +210,11 @@ impl Plan {
     }
 
     /// Whether a root with so many levels of instances may be traced against; why not.
-    pub fn allows(&self, depth: u32) -> Result<(), String> {
+    pub fn allows(&self, levels: u32) -> Result<(), ReferenceError> {
         let planned = self.graph_depth - 1;
         match self.graph {
-            _ if depth > planned => Err(format!(
-                "it traces against a graph with {depth} levels of instances, but the pipeline was specialised to {}, the \
-                 deepest that the scene had then ({planned}): build the pipeline after the acceleration structures",
-                self.graph
-            )),
-            Graph::SingleLevelInstancing if depth == 0 => Err(
-                "it traces against a GAS, but the scene has an IAS, so the pipeline is specialised to rays that are traced against \
-                 an IAS: put the GAS into one (`scene.ias([gas.at(Affine3A::IDENTITY)])`) and trace against that, or take the GAS's \
-                 `world()` before the pipeline is built, which then allows any graph"
-                    .into(),
-            ),
+            graph if levels > planned => Err(ReferenceError::GraphTooDeep { levels, planned, graph: graph.words() }),
+            Graph::SingleLevelInstancing if levels == 0 => Err(ReferenceError::GasAlone),
             _ => Ok(()),
         }
     }
@@ -240,10 +231,10 @@ const THROW: &str = "_optix_throw_exception_";
 fn check_layouts(description: &PipelineDescription, module: &Module<'_>) -> Result<()> {
     let here = description.crossings;
     let there = module.variables.iter().find(|variable| variable.name == description.layouts);
-    let what = match there.map(|variable| variable.numbers()) {
-        None => format!("it does not have the pipeline's layouts, `{}`", description.layouts),
+    let error = match there.map(|variable| variable.numbers()) {
+        None => PipelineError::NoLayouts { table: description.layouts },
         Some(numbers) if numbers.len() != 2 * here.len() => {
-            format!("{} types cross between host and device there, and {} here", numbers.len() / 2, here.len())
+            PipelineError::CrossingCount { ptx: numbers.len() / 2, host: here.len() }
         }
         Some(numbers) => {
             let (there, _) = numbers.as_chunks();
@@ -252,29 +243,18 @@ fn check_layouts(description: &PipelineDescription, module: &Module<'_>) -> Resu
             if different.is_empty() {
                 return Ok(());
             }
-            different.join("; ")
+            PipelineError::Layouts(different)
         }
     };
-    Err(Error::Pipeline {
-        pipeline: description.name,
-        what: format!(
-            "the PTX is of another build than this host: {what}; build both from the same source, in which no `#[cfg(..)]` and no \
-             constant makes a type different for the device"
-        ),
-    })
+    Err(Error::Pipeline { pipeline: description.name, error })
 }
 
 /// In what a type differs from the same type of the PTX, of which its table says size and layout; none if in nothing.
-fn difference(here: &Crossing, [size_there, layout_there]: [u64; 2]) -> Option<String> {
-    let Crossing { what, name, size, layout } = here;
-    let unit = here.unit();
-    if size_there != *size as u64 {
-        Some(format!("{what} `{name}`: {size_there} {unit} there, {size} here"))
-    } else if layout_there != layout.get() {
-        Some(format!("{what} `{name}`: {size} {unit} in both, but with other fields"))
-    } else {
-        None
-    }
+fn difference(here: &Crossing, [ptx, layout_there]: [u64; 2]) -> Option<LayoutDifference> {
+    let Crossing { what, name, size, layout } = *here;
+    let host = size as u64;
+    let same = ptx == host && layout_there == layout.get();
+    (!same).then(|| LayoutDifference { what, name, ptx, host, unit: here.unit() })
 }
 
 /// The text of a module without the entries that `keep` says no to.
@@ -406,7 +386,8 @@ mod tests {
                 let refused = plan.allows(depth).err();
                 assert_eq!(refused.is_some(), depth > planned || planned == 1 && depth == 0, "{depth} in {planned}");
                 if let Some(why) = refused {
-                    assert!(why.contains(if depth == 0 {
+                    assert_eq!(matches!(why, ReferenceError::GasAlone), depth == 0, "{why}");
+                    assert!(why.remedy().contains(if depth == 0 {
                         "put the GAS into one"
                     } else {
                         "after the acceleration structures"

@@ -6,6 +6,7 @@
 
 pub use crate::limits::{RECORD_ALIGNMENT, RECORD_HEADER_SIZE as HEADER_SIZE};
 
+use crate::error::PipelineError;
 use crate::plan::Plan;
 use crate::scene::{SceneState, Slot};
 use crate::{Error, Result};
@@ -121,11 +122,9 @@ impl ShaderBindingTable {
     /// The table of a scene for a planned pipeline.
     pub(crate) fn of(scene: &SceneState, plan: &Plan) -> Result<Self> {
         let description = &plan.description;
-        let missing = |kind: &str, function: &str, record: &str, call: String| Error::Pipeline {
+        let missing = |kind, program, record, call| Error::Pipeline {
             pipeline: description.name,
-            what: format!(
-                "the {kind} program `{function}` reads a record `{record}` that the scene was not given: call {call}"
-            ),
+            error: PipelineError::MissingRecord { kind, program, record, call },
         };
         for (given, ray) in scene.miss.iter().zip(description.rays) {
             if let (None, Some(miss)) = (&given.bytes, ray.miss) {

@@ -1,7 +1,8 @@
 //! Acceleration structures that a machine built (guide 5).
 
 use super::{BuiltAccel, SceneState};
-use crate::{Error, Result};
+use crate::Result;
+use crate::error::SceneError;
 use optix_device_rs::host::{DeviceId, World};
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -51,11 +52,7 @@ impl<P> Accel<P> {
     pub fn world(&self) -> Result<World> {
         let shared = &self.shared;
         if shared.first_slot != 0 {
-            return Err(Error::Scene(
-                "this GAS is not the scene's first, so its records are reached through an instance only: \
-                 trace against an IAS that has it"
-                    .into(),
-            ));
+            return Err(SceneError::NotFirstGas.into());
         }
         shared.roots.fetch_or(1 << shared.depth, Relaxed);
         Ok(shared.world())

@@ -1,7 +1,8 @@
 //! What geometry acceleration structures are built of (guide 5).
 
 use super::{Accel, BuildInput, BuiltAccel, GasInput, Geometry, GeometryData, SceneState};
-use crate::{Error, Result};
+use crate::Result;
+use crate::error::SceneError;
 use optix_device_rs::attributes::Geometry as GeometryKindOf;
 use optix_device_rs::pipeline::Pipeline;
 use std::marker::PhantomData;
@@ -43,11 +44,11 @@ impl SceneState {
         random_vertex_access: bool,
     ) -> Result<GasInput> {
         if members.is_empty() {
-            return Err(Error::Scene("a GAS needs at least one geometry".into()));
+            return Err(SceneError::EmptyGas.into());
         }
         for (i, member) in members.iter().enumerate() {
             if member.scenes.iter().any(|&scene| scene != self.id) {
-                return Err(Error::Scene(format!("geometry {i} of the GAS has a material of another scene")));
+                return Err(SceneError::ForeignMaterial { geometry: i }.into());
             }
             check_records(i, member)?;
         }
@@ -77,20 +78,14 @@ impl SceneState {
     }
 }
 
-fn check_records<P, G>(index: usize, member: &GasMember<P, G>) -> Result<()> {
+fn check_records<P, G>(geometry: usize, member: &GasMember<P, G>) -> Result<(), SceneError> {
     let Some(which) = &member.record_of_primitive else { return Ok(()) };
     let (primitives, materials) = (member.data.primitives(), member.records.len());
     if which.len() != primitives {
-        return Err(Error::Scene(format!(
-            "geometry {index} has {primitives} primitives but {} material numbers",
-            which.len()
-        )));
+        return Err(SceneError::MaterialNumbers { geometry, primitives, numbers: which.len() });
     }
     match which.iter().position(|&w| w as usize >= materials) {
-        Some(primitive) => Err(Error::Scene(format!(
-            "primitive {primitive} of geometry {index} has material number {}, but there are {materials} materials",
-            which[primitive]
-        ))),
+        Some(primitive) => Err(SceneError::NoSuchMaterial { geometry, primitive, number: which[primitive], materials }),
         None => Ok(()),
     }
 }

@@ -1,9 +1,10 @@
 //! What instance acceleration structures are built of (guide 5.4).
 
 use super::{Accel, BuiltAccel, IasInput, InstanceFlags, InstanceInput, SceneState};
+use crate::Result;
 use crate::affine::Affine;
-use crate::limits::{INSTANCE_BITS, MAX_GRAPH_DEPTH, MAX_INSTANCE_NUMBER};
-use crate::{Error, Result};
+use crate::error::SceneError;
+use crate::limits::{MAX_GRAPH_DEPTH, MAX_INSTANCE_NUMBER};
 use glam::Affine3A;
 use optix_device_rs::pipeline::Pipeline;
 
@@ -51,46 +52,32 @@ impl SceneState {
         random_instance_access: bool,
     ) -> Result<IasInput> {
         if instances.is_empty() {
-            return Err(Error::Scene("an IAS needs at least one instance".into()));
+            return Err(SceneError::EmptyIas.into());
         }
         let mut inputs = Vec::with_capacity(instances.len());
         for (i, instance) in instances.iter().enumerate() {
             let child = &instance.child.shared;
             if child.scene != self.id {
-                return Err(Error::Scene(format!("instance {i} is of another scene's acceleration structure")));
+                return Err(SceneError::ForeignInstance { instance: i }.into());
             }
             if instance.id > MAX_INSTANCE_NUMBER {
-                return Err(Error::Scene(format!(
-                    "instance {i} has id {}, more than {INSTANCE_BITS} bits",
-                    instance.id
-                )));
+                return Err(SceneError::InstanceId { instance: i, id: instance.id }.into());
             }
-            if let Some([a, b]) = instance.flags.conflict() {
-                return Err(Error::Scene(format!(
-                    "instance {i} has the flags {a} and {b}, which exclude each other (guide 5.4): leave one out"
-                )));
+            if let Some(flags) = instance.flags.conflict() {
+                return Err(SceneError::InstanceFlags { instance: i, flags }.into());
             }
             let rows = glam::Mat4::from(instance.transform).transpose().to_cols_array();
             let transform = core::array::from_fn(|k| rows[k]);
             if !instance.transform.is_finite() {
-                return Err(Error::Scene(format!(
-                    "instance {i} has a transform that is not finite: {}",
-                    instance.transform
-                )));
+                return Err(SceneError::NonFiniteTransform { instance: i, transform: instance.transform }.into());
             }
             if Affine::from_f32(&transform).inverse().is_none() {
-                return Err(Error::Scene(format!(
-                    "instance {i} has a transform that can't be inverted, so rays can't be taken to its space: {}. An instance \
-                     that shrinks to nothing, or to a plane, is left out where it gets there",
-                    instance.transform
-                )));
+                return Err(SceneError::SingularTransform { instance: i, transform: instance.transform }.into());
             }
             let sbt_offset = u64::from(child.first_slot) * u64::from(P::RAY_TYPES);
             let Some(sbt_offset) = u32::try_from(sbt_offset).ok().filter(|&offset| offset <= MAX_INSTANCE_NUMBER)
             else {
-                return Err(Error::Scene(format!(
-                    "instance {i} has SBT offset {sbt_offset}, more than {INSTANCE_BITS} bits"
-                )));
+                return Err(SceneError::RecordOffset { instance: i, offset: sbt_offset }.into());
             };
             inputs.push(InstanceInput {
                 transform,
@@ -103,10 +90,7 @@ impl SceneState {
         }
         let depth = depth_over(instances);
         if depth as usize >= MAX_GRAPH_DEPTH {
-            return Err(Error::Scene(format!(
-                "{} levels of instances: a traversable graph has {MAX_GRAPH_DEPTH} levels with its geometry",
-                depth
-            )));
+            return Err(SceneError::GraphTooDeep { levels: depth }.into());
         }
         Ok(IasInput { instances: inputs, random_instance_access })
     }

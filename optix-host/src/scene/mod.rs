@@ -10,7 +10,7 @@ mod ias;
 mod input;
 mod material;
 
-pub use crate::error::GeometryError;
+pub use crate::error::{GeometryError, SceneError};
 pub use accel::Accel;
 pub(crate) use accel::AccelShared;
 pub(crate) use callable::{CallableShared, CallableState};
@@ -23,7 +23,7 @@ pub(crate) use input::{BuildInput, BuiltAccel, GasInput, IasInput, InstanceInput
 pub use material::Material;
 pub(crate) use material::MaterialState;
 
-use crate::{Error, Result};
+use crate::Result;
 use optix_device_rs::data::DeviceData;
 use optix_device_rs::host::{DeviceId, GeometryKind, KeepAlive, Kept, PipelineDescription, Twin};
 use std::collections::HashMap;
@@ -107,16 +107,10 @@ impl SceneState {
         let mut keep = unsafe { KeepAlive::new() };
         let device_data = record.lower(&mut keep);
         if let Some(kept) = keep.foreign(self.device) {
-            return Err(Error::Scene(format!(
-                "a record holds {kind} of another device; make it with this scene's device",
-                kind = kept.kind()
-            )));
+            return Err(SceneError::RecordOfAnotherDevice { holds: kept.kind() }.into());
         }
         if let Some(kept) = keep.kept().iter().find(|kept| scene_of(kept).is_some_and(|scene| scene != self.id)) {
-            return Err(Error::Scene(format!(
-                "a record holds {kind} of another scene, whose records are in another table; make it with this scene",
-                kind = kept.kind()
-            )));
+            return Err(SceneError::RecordOfAnotherScene { holds: kept.kind() }.into());
         }
         let mut bytes = vec![0; size_of::<T::Device>()];
         device_data.write_to(&mut bytes);
@@ -144,8 +138,8 @@ impl SceneState {
 }
 
 /// A count that numbers of 32 bits can count.
-pub(crate) fn numbered(count: usize, what: &str) -> Result<u32> {
-    u32::try_from(count).map_err(|_| Error::Scene(format!("{count} {what} are more than 32 bits can number")))
+pub(crate) fn numbered(count: usize, what: &'static str) -> Result<u32> {
+    u32::try_from(count).map_err(|_| SceneError::TooMany { what, count }.into())
 }
 
 impl Usage {

@@ -1,0 +1,212 @@
+//! What can be wrong with a scene.
+
+use super::words::{Words, errors};
+use crate::limits::{INSTANCE_BITS, MAX_GRAPH_DEPTH};
+use glam::Affine3A;
+
+/// What does not fit together in a scene. Geometries and instances are counted from 0, in the order given.
+#[derive(Clone, PartialEq)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// A GAS without geometry.
+    EmptyGas,
+    /// An IAS without instances.
+    EmptyIas,
+    /// A material that another scene made.
+    ForeignMaterial {
+        /// The geometry that has it.
+        geometry: usize,
+    },
+    /// Geometry with a material per primitive that says so for more or fewer primitives than there are.
+    MaterialNumbers {
+        /// Which geometry.
+        geometry: usize,
+        /// How many primitives it has.
+        primitives: usize,
+        /// For how many a material was given.
+        numbers: usize,
+    },
+    /// A primitive whose material there is not.
+    NoSuchMaterial {
+        /// Which geometry.
+        geometry: usize,
+        /// Which of its primitives.
+        primitive: usize,
+        /// The number of the primitive's material.
+        number: u32,
+        /// How many materials the geometry has.
+        materials: usize,
+    },
+    /// A record that holds what another device made.
+    RecordOfAnotherDevice {
+        /// What it holds, with an article.
+        holds: &'static str,
+    },
+    /// A record that holds what another scene made.
+    RecordOfAnotherScene {
+        /// What it holds, with an article.
+        holds: &'static str,
+    },
+    /// A table of callables that holds one of another scene.
+    ForeignCallable {
+        /// Which of the callables that were given.
+        callable: usize,
+    },
+    /// More than can be numbered.
+    TooMany {
+        /// Of what.
+        what: &'static str,
+        /// How many there are.
+        count: usize,
+    },
+    /// More callables than this process can tell apart, over all scenes that it has had.
+    TooManyCallables,
+    /// An instance of a structure that another scene made.
+    ForeignInstance {
+        /// Which instance.
+        instance: usize,
+    },
+    /// An instance of a structure that another device built.
+    InstanceOfAnotherDevice {
+        /// Which instance.
+        instance: usize,
+    },
+    /// An id that is too large.
+    InstanceId {
+        /// Which instance.
+        instance: usize,
+        /// Its id.
+        id: u32,
+    },
+    /// Flags of an instance that exclude each other.
+    InstanceFlags {
+        /// Which instance.
+        instance: usize,
+        /// The names of the flags.
+        flags: [&'static str; 2],
+    },
+    /// A transform with an element that is NaN or infinite.
+    NonFiniteTransform {
+        /// Which instance.
+        instance: usize,
+        /// Its transform.
+        transform: Affine3A,
+    },
+    /// A transform without an inverse.
+    SingularTransform {
+        /// Which instance.
+        instance: usize,
+        /// Its transform.
+        transform: Affine3A,
+    },
+    /// An instance whose records begin too far in the table.
+    RecordOffset {
+        /// Which instance.
+        instance: usize,
+        /// Where its records begin.
+        offset: u64,
+    },
+    /// A graph with more levels than OptiX traverses.
+    GraphTooDeep {
+        /// Levels of instances.
+        levels: u32,
+    },
+    /// A GAS that only rays through an instance find the records of.
+    NotFirstGas,
+}
+
+impl SceneError {
+    fn words(&self) -> Words {
+        let (problem, remedy): (String, &str) = match *self {
+            Self::EmptyGas => (
+                "a GAS needs at least one geometry, and was given none".into(),
+                "give it one, or leave out the structure",
+            ),
+            Self::EmptyIas => (
+                "an IAS needs at least one instance, and was given none".into(),
+                "give it one; an instance with visibility mask 0 is seen by no ray",
+            ),
+            Self::ForeignMaterial { geometry } => (
+                format!("geometry {geometry} of the GAS has a material of another scene"),
+                "make the material with this scene (`scene.material(..)`)",
+            ),
+            Self::MaterialNumbers { geometry, primitives, numbers } => (
+                format!("geometry {geometry} of the GAS has {primitives} primitives, but {numbers} material numbers"),
+                "give `with_each` one number for each primitive",
+            ),
+            Self::NoSuchMaterial { geometry, primitive, number, materials } => (
+                format!(
+                    "primitive {primitive} of geometry {geometry} has material number {number}, but there are {materials} \
+                     materials"
+                ),
+                "number the materials from 0, in the order in which `with_each` is given them",
+            ),
+            Self::RecordOfAnotherDevice { holds } => {
+                (format!("a record holds {holds} of another device"), "make it with this scene's device")
+            }
+            Self::RecordOfAnotherScene { holds } => (
+                format!("a record holds {holds} of another scene, whose records are in another table"),
+                "make it with this scene",
+            ),
+            Self::ForeignCallable { callable } => (
+                format!("callable {callable} of the table is a callable of another scene"),
+                "make it with this scene (`scene.callable::<program>(..)`)",
+            ),
+            Self::TooMany { what, count } => {
+                (format!("the scene has {count} {what}, more than 32 bits can number"), "split the scene over several")
+            }
+            Self::TooManyCallables => (
+                "the scenes of this process have had more callables than 32 bits can number".into(),
+                "make callables once and keep their references, or start the process again",
+            ),
+            Self::ForeignInstance { instance } => (
+                format!("instance {instance} is of an acceleration structure of another scene"),
+                "build the structure with this scene",
+            ),
+            Self::InstanceOfAnotherDevice { instance } => (
+                format!("instance {instance} is of an acceleration structure of another device"),
+                "build the structure on this device",
+            ),
+            Self::InstanceId { instance, id } => (
+                format!("instance {instance} has id {id}, which is more than {INSTANCE_BITS} bits (guide 5.4)"),
+                "give it a smaller id, and keep what it stands for in a buffer that programs index by it",
+            ),
+            Self::InstanceFlags { instance, flags: [a, b] } => (
+                format!("instance {instance} has the flags {a} and {b}, which exclude each other (guide 5.4)"),
+                "leave one out",
+            ),
+            Self::NonFiniteTransform { instance, transform } => (
+                format!("instance {instance} has a transform that is not finite: {transform}"),
+                "give all of its elements finite values",
+            ),
+            Self::SingularTransform { instance, transform } => (
+                format!(
+                    "instance {instance} has a transform that can't be inverted, so rays can't be taken to its space: \
+                     {transform}"
+                ),
+                "give it one that can; an instance that shrinks to nothing, or to a plane, is left out from there on",
+            ),
+            Self::RecordOffset { instance, offset } => (
+                format!(
+                    "the records of instance {instance} begin at number {offset} of the table, which is more than \
+                     {INSTANCE_BITS} bits (guide 5.4)"
+                ),
+                "use fewer materials per GAS; GASes with the same list of materials share their records",
+            ),
+            Self::GraphTooDeep { levels } => (
+                format!(
+                    "there are {levels} levels of instances, but a traversable graph has at most {MAX_GRAPH_DEPTH} levels \
+                     with its geometry (guide 12)"
+                ),
+                "put instances of instances into one IAS, with the product of their transforms",
+            ),
+            Self::NotFirstGas => (
+                "this GAS is not the scene's first, so its records are reached through an instance only".into(),
+                "trace against an IAS that has it (`scene.ias([gas.at(Affine3A::IDENTITY)])`)",
+            ),
+        };
+        (problem, remedy.into())
+    }
+}
+
+errors!(SceneError);
