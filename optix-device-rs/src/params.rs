@@ -1,4 +1,4 @@
-//! Launch parameters (guide 6.5, 10; checklist C4, C5).
+//! Launch parameters (guide 6.5, 10).
 
 use crate::data::DeviceData;
 use crate::machine::ParamsBase;

@@ -1,4 +1,4 @@
-//! Shader-binding-table records (guide 7; checklist group D).
+//! Shader-binding-table records (guide 7).
 
 use crate::data::DeviceData;
 

@@ -1,4 +1,4 @@
-//! Ray payloads with typed access per program (guide 14; checklist group H).
+//! Ray payloads with typed access per program (guide 14).
 //!
 //! `#[derive(Payload)]` on a struct `Radiance` makes, for each party that takes part, the struct it receives and the
 //! struct it must return: `RadianceFromCaller`, `RadianceAtClosestHit`, `RadianceFromClosestHit`, `RadianceAtMiss`,

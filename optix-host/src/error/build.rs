@@ -21,7 +21,7 @@ pub enum BuildError {
     NonFiniteBox { input: usize, primitive: usize, min: [f32; 3], max: [f32; 3] },
     #[error("build input {input} has no SBT record; give one set of geometry flags per record, at least one")]
     NoSbtRecord { input: usize },
-    #[error("build input {input} has {records} SBT records, so it needs one record index per primitive (guide §5.1)")]
+    #[error("build input {input} has {records} SBT records, so it needs one record index per primitive (guide 5.1)")]
     NoPerPrimitiveIndex { input: usize, records: usize },
     #[error("build input {input} has {primitives} primitives but {indices} per-primitive SBT indices")]
     PerPrimitiveLength { input: usize, primitives: usize, indices: usize },
@@ -31,11 +31,11 @@ pub enum BuildError {
     PrimitiveIndexOverflow { input: usize, offset: u32, primitives: usize },
     #[error("{count} {what} in one acceleration structure; at most {limit} are possible, split it over several")]
     TooMany { what: &'static str, count: usize, limit: usize },
-    #[error("instance {instance}: {field} is {value:#x}, but it has only 28 bits (guide §5.4)")]
+    #[error("instance {instance}: {field} is {value:#x}, but it has only 28 bits (guide 5.4)")]
     Exceeds28Bits { instance: usize, field: &'static str, value: u32 },
     #[error(
         "instance {instance}: its SBT offset {offset} and those below it add up to {sum}, which exceeds 28 bits \
-         (guide §5.4)"
+         (guide 5.4)"
     )]
     SbtOffsetSum { instance: usize, offset: u32, sum: u32 },
     #[error("instance {instance}: transform {transform:?} has an element that is not finite")]
@@ -44,6 +44,6 @@ pub enum BuildError {
     SingularTransform { instance: usize, transform: [f32; 12] },
     #[error("instance {instance}: flags DISABLE_ANYHIT and ENFORCE_ANYHIT exclude each other; clear one")]
     AnyHitFlags { instance: usize },
-    #[error("instance {instance}: the graph below it would be {depth} traversables deep; at most {limit} (guide §12)")]
+    #[error("instance {instance}: the graph below it would be {depth} traversables deep; at most {limit} (guide 12)")]
     TooDeep { instance: usize, depth: usize, limit: usize },
 }

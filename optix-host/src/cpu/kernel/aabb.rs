@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// An axis-aligned box, laid out as `OptixAabb` (guide §5.1): six `f32`, 24 bytes, lengths in the units of its space.
+/// An axis-aligned box, laid out as `OptixAabb` (guide 5.1): six `f32`, 24 bytes, lengths in the units of its space.
 ///
 /// A box with `min > max` on any axis holds nothing; a primitive with such a box is inactive.
 #[repr(C)]

@@ -17,7 +17,7 @@ pub struct Place<'s> {
     /// The query's, but not negative.
     pub tmin: f32,
     pub space: &'s Space,
-    /// Those of the innermost instance (guide §5.4).
+    /// Those of the innermost instance (guide 5.4).
     pub flags: InstanceFlags,
     /// The sum over all instances.
     pub sbt_offset: u32,

@@ -2,7 +2,7 @@
 
 use crate::scene::InstanceFlags;
 
-/// Flags of the primitives that map to one SBT record (`OptixGeometryFlags`, guide §5.1).
+/// Flags of the primitives that map to one SBT record (`OptixGeometryFlags`, guide 5.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct GeometryFlags {
     /// Any-hit is never called for these primitives, unless an instance or the ray enforces it.
@@ -13,7 +13,7 @@ pub struct GeometryFlags {
     pub disable_triangle_face_culling: bool,
 }
 
-/// The bits of `OptixRayFlags` (guide §13.2).
+/// The bits of `OptixRayFlags` (guide 13.2).
 pub mod ray_flags {
     pub const NONE: u32 = 0;
     pub const DISABLE_ANYHIT: u32 = 1;
@@ -37,7 +37,7 @@ pub enum Verdict {
     AnyHit,
 }
 
-/// The any-hit decision (guide §5.1, §5.4, §13.2): the geometry flag, overridden by the instance, tested by the ray's
+/// The any-hit decision (guide 5.1, 5.4, 13.2): the geometry flag, overridden by the instance, tested by the ray's
 /// two cull flags, and overridden by the ray.
 pub fn any_hit_verdict(geometry: GeometryFlags, instance: InstanceFlags, ray: u32) -> Verdict {
     let enabled = if instance.contains(InstanceFlags::DISABLE_ANYHIT) {

@@ -9,7 +9,7 @@ use super::primitive::triangle::{TriangleInput, Triangles};
 use crate::error::BuildError;
 use crate::limits::{MAX_PRIMITIVES, MAX_RECORDS_OF_GAS};
 
-/// How the primitives of a build input map to its SBT records (guide §5.1).
+/// How the primitives of a build input map to its SBT records (guide 5.1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SbtMapping {
     /// One entry per record; at least one.
@@ -94,7 +94,7 @@ impl Gas {
     }
 
     /// The corners, in object space, of the triangle with this reported primitive index in the build input that
-    /// `sbt_gas_index` belongs to (guide §13.9): NaN for one without area. `None` if there is none, or if these are custom
+    /// `sbt_gas_index` belongs to (guide 13.9): NaN for one without area. `None` if there is none, or if these are custom
     /// primitives.
     pub fn triangle_vertices(&self, sbt_gas_index: u32, primitive_index: u32) -> Option<[[f32; 3]; 3]> {
         let Primitives::Triangles(triangles) = &self.primitives else { return None };

@@ -71,7 +71,7 @@ impl From<Ias> for Accel {
     }
 }
 
-/// One instance (`OptixInstance`, guide §5.4).
+/// One instance (`OptixInstance`, guide 5.4).
 #[derive(Clone, Debug)]
 pub struct Instance {
     /// Object to world, row-major 3x4. Must be invertible.

@@ -1,6 +1,6 @@
 //! The traversal and intersection kernel of the CPU executor.
 //!
-//! It has OptiX's semantics (guide §5, §7.3, §13) and knows nothing of shaders: it calls them through [`Programs`].
+//! It has OptiX's semantics (guide 5, 7.3, 13) and knows nothing of shaders: it calls them through [`Programs`].
 //!
 //! | module | what |
 //! | --- | --- |

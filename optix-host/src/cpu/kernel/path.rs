@@ -47,7 +47,7 @@ impl<'a> InstancePath<'a> {
         &self.indices[..self.len as usize]
     }
 
-    /// The transform list (guide §13.11): nearest the root first.
+    /// The transform list (guide 13.11): nearest the root first.
     pub fn instances(&self) -> impl Iterator<Item = &'a Placed> {
         self.indices().iter().scan(self.root, |at, &index| {
             let Accel::Ias(ias) = *at else { return None };
@@ -80,12 +80,12 @@ impl<'a> InstancePath<'a> {
         self.innermost().map_or(self.root, |placed| &placed.instance.child)
     }
 
-    /// `optixGetInstanceId`: the innermost instance's ID, `!0` without one (guide §13.7).
+    /// `optixGetInstanceId`: the innermost instance's ID, `!0` without one (guide 13.7).
     pub fn instance_id(&self) -> u32 {
         self.innermost().map_or(!0, |placed| placed.instance.instance_id)
     }
 
-    /// `optixGetInstanceIndex`: the innermost instance's index in its IAS, 0 without one (guide §13.7).
+    /// `optixGetInstanceIndex`: the innermost instance's index in its IAS, 0 without one (guide 13.7).
     pub fn instance_index(&self) -> u32 {
         self.indices().last().copied().unwrap_or(0)
     }

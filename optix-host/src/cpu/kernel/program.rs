@@ -6,7 +6,7 @@ use super::gas::Gas;
 use super::path::InstancePath;
 use super::ray::{Ray, RayQuery};
 
-/// What an any-hit program decides (guide §13.13).
+/// What an any-hit program decides (guide 13.13).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnyHit {
     /// The candidate becomes the closest hit so far.
@@ -35,9 +35,9 @@ pub trait Programs {
 pub struct Site<'s> {
     /// With the build input's primitive index offset.
     pub primitive_index: u32,
-    /// SBT index within the GAS (guide §7.3.2).
+    /// SBT index within the GAS (guide 7.3.2).
     pub sbt_gas_index: u32,
-    /// Hit-group record of the whole SBT (guide §7.3).
+    /// Hit-group record of the whole SBT (guide 7.3).
     pub sbt_index: u32,
     pub gas: &'s Gas,
     pub path: &'s InstancePath<'s>,
@@ -77,9 +77,9 @@ pub struct Hit<'a> {
     pub attributes: [u32; 8],
     /// With the build input's primitive index offset.
     pub primitive_index: u32,
-    /// SBT index within the GAS (guide §7.3.2).
+    /// SBT index within the GAS (guide 7.3.2).
     pub sbt_gas_index: u32,
-    /// Hit-group record of the whole SBT (guide §7.3).
+    /// Hit-group record of the whole SBT (guide 7.3).
     pub sbt_index: u32,
     pub(super) slot: u32,
     pub gas: &'a Gas,
@@ -108,7 +108,7 @@ pub struct Reporter<'r, 'a> {
 }
 
 impl Reporter<'_, '_> {
-    /// Reports a hit (guide §13.4); tells whether it was accepted.
+    /// Reports a hit (guide 13.4); tells whether it was accepted.
     ///
     /// It is not if `t` lies outside `[tmin, tmax]` or is NaN, if the any-hit program ignores it, if it ties with a hit
     /// that wins ties (see [`trace`](super::trace)), or if the ray has ended. Only the lowest 7 bits of `hit_kind` and
@@ -124,7 +124,7 @@ impl Reporter<'_, '_> {
         self.sink.take(offer, verdict, programs)
     }
 
-    /// The end of the ray's interval: the closest hit accepted so far, else the trace's `tmax` (guide §13.5).
+    /// The end of the ray's interval: the closest hit accepted so far, else the trace's `tmax` (guide 13.5).
     pub fn tmax(&self) -> f32 {
         self.sink.state.tmax
     }

@@ -4,14 +4,14 @@ use glam::{BVec3A, Vec3A};
 
 use super::aabb::Aabb;
 
-/// The arguments of a trace call (guide §13.2).
+/// The arguments of a trace call (guide 13.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayQuery {
     pub origin: [f32; 3],
     /// Any length but 0; `t` counts in multiples of it. A ray with an element that is not finite, or with no
     /// direction, misses everything; one that becomes so in the space of an instance misses what the instance holds.
     pub direction: [f32; 3],
-    /// Closed interval of hits. A negative `tmin` is undefined in OptiX (§13.2) and taken as 0 here; NaN misses.
+    /// Closed interval of hits. A negative `tmin` is undefined in OptiX (guide 13.2) and taken as 0 here; NaN misses.
     pub tmin: f32,
     /// May be infinite.
     pub tmax: f32,
@@ -20,9 +20,9 @@ pub struct RayQuery {
     pub mask: u8,
     /// Bits of [`ray_flags`](super::ray_flags).
     pub flags: u32,
-    /// Only the lowest 4 bits count (§7.3.3).
+    /// Only the lowest 4 bits count (guide 7.3.3).
     pub sbt_offset: u32,
-    /// Only the lowest 4 bits count (§7.3.4).
+    /// Only the lowest 4 bits count (guide 7.3.4).
     pub sbt_stride: u32,
 }
 

@@ -98,7 +98,7 @@ impl<'a> State<'a> {
     }
 }
 
-/// The hit-group record (guide §7.3): instance offsets + GAS index * stride + offset. Below `2^32`, because the sum of
+/// The hit-group record (guide 7.3): instance offsets + GAS index * stride + offset. Below `2^32`, because the sum of
 /// instance offsets has 28 bits and a GAS index 24.
 #[inline]
 pub fn sbt_index(query: &RayQuery, instance_offset: u32, record: u32) -> u32 {

@@ -14,7 +14,7 @@ use super::stack::{Entry, Stack};
 use super::state::State;
 use crate::scene::InstanceFlags;
 
-/// Traces a ray (guide §13.2) and gives its closest accepted hit. No structure at all is a miss.
+/// Traces a ray (guide 13.2) and gives its closest accepted hit. No structure at all is a miss.
 ///
 /// The interval `[tmin, tmax]` is closed. Hits at the same `t` are ordered by instance path (index by index from the
 /// root) and then by primitive (counted over the build inputs of the GAS): the first wins, so the result does not
@@ -23,7 +23,7 @@ use crate::scene::InstanceFlags;
 /// A custom primitive's second report at the same `t` comes after its first.
 ///
 /// Which candidates behind the final hit are offered to any-hit depends on the order of traversal, as the guide allows
-/// (§13.4); that order is the same in every run.
+/// (guide 13.4); that order is the same in every run.
 ///
 /// Watertight within a GAS: see `primitive/triangle/test.rs`. Between instances nothing is promised, as in OptiX, because each has a
 /// ray of its own.

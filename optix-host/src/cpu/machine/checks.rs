@@ -1,6 +1,4 @@
 //! How the checked mode finds out what the OptiX guide calls undefined or leaves to the application.
-//!
-//! Each message names the rule and its item in the guide's checklist, such as `G010`.
 
 use super::{Job, rules, trap};
 use crate::cpu::kernel::{Aabb, InstancePath, Ray, Site};

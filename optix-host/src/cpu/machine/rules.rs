@@ -2,7 +2,7 @@
 
 /// A rule of the guide that the executor holds programs to.
 pub(super) struct Rule {
-    /// Where the guide has it, and its item in the guide's checklist if it has one.
+    /// The section of the guide that has it.
     pub guide: &'static str,
     #[cfg(test)]
     pub when: When,
@@ -40,26 +40,26 @@ macro_rules! rules {
 }
 
 rules! {
-    RAY, Checked, "13.2, G008", "a ray's origin or direction is not finite, or the direction is zero";
-    OBJECT_RAY, Checked, "13.2, G008", "a ray meets the box of an instance in whose object space its origin or direction is not finite, or its direction is zero; unchecked, it misses what the instance holds";
-    INTERVAL, Checked, "13.2, G010", "`tmin` is negative, infinite or NaN; `tmax` is NaN or minus infinity";
-    ANYHIT_FLAGS, Checked, "13.2, G016 to G019", "two of a ray's any-hit flags exclude each other";
-    CULL_FLAGS, Checked, "13.2, G023", "a ray culls both faces of triangles";
+    RAY, Checked, "13.2", "a ray's origin or direction is not finite, or the direction is zero";
+    OBJECT_RAY, Checked, "13.2", "a ray meets the box of an instance in whose object space its origin or direction is not finite, or its direction is zero; unchecked, it misses what the instance holds";
+    INTERVAL, Checked, "13.2", "`tmin` is negative, infinite or NaN; `tmax` is NaN or minus infinity";
+    ANYHIT_FLAGS, Checked, "13.2", "two of a ray's any-hit flags exclude each other";
+    CULL_FLAGS, Checked, "13.2", "a ray culls both faces of triangles";
     PAYLOAD_TYPE, Checked, "14", "a program runs for a trace call with another payload type than its own";
-    PAYLOAD_UNWRITTEN, Checked, "14, H024", "a program reads a payload field that nobody wrote, or one comes back unwritten to a caller that reads it";
-    HIT_KIND, Checked, "13.4, G030", "an intersection program reports a hit kind above 127";
-    HIT_NAN, Checked, "13.4, G034", "an intersection program reports a hit at `t` = NaN";
-    OUTSIDE_BOX, Checked, "5.1, B039", "an intersection program reports a hit outside of its primitive's box";
-    TRACE_DEPTH, Always, "12, G013", "trace calls nest deeper than the pipeline's trace depth, and no exception says so";
-    CALLABLE_DEPTH, Always, "6.8, I013", "callables nest deeper than the pipeline's callable depth";
+    PAYLOAD_UNWRITTEN, Checked, "14", "a program reads a payload field that nobody wrote, or one comes back unwritten to a caller that reads it";
+    HIT_KIND, Checked, "13.4", "an intersection program reports a hit kind above 127";
+    HIT_NAN, Checked, "13.4", "an intersection program reports a hit at `t` = NaN";
+    OUTSIDE_BOX, Checked, "5.1", "an intersection program reports a hit outside of its primitive's box";
+    TRACE_DEPTH, Always, "12", "trace calls nest deeper than the pipeline's trace depth, and no exception says so";
+    CALLABLE_DEPTH, Always, "6.8", "callables nest deeper than the pipeline's callable depth";
     STACK, Always, "6.8", "programs that call each other use up the thread's stack, and no exception says so";
-    MISS_RECORD, Always, "13.2, G012", "a trace call names a miss record that is not there";
-    HIT_RECORD, Always, "7.3, D016", "a hit asks for a hit-group record that is not there";
-    CALLABLE_RECORD, Always, "7.2, D018", "a call names a callable's record that is not there";
-    CALLABLE_SIGNATURE, Always, "15.2, I003", "a callable is called with another signature or as another kind";
+    MISS_RECORD, Always, "13.2", "a trace call names a miss record that is not there";
+    HIT_RECORD, Always, "7.3", "a hit asks for a hit-group record that is not there";
+    CALLABLE_RECORD, Always, "7.2", "a call names a callable's record that is not there";
+    CALLABLE_SIGNATURE, Always, "15.2", "a callable is called with another signature or as another kind";
     HELD, Always, "5", "a traversable, or a table of instances or triangles, is used that this launch was not given";
     INSTANCE_HANDLE, Always, "13.11", "a handle that is taken for an instance's is of none";
-    TRIANGLE_INDEX, Always, "13.9, G058", "a triangle is read that is not there";
+    TRIANGLE_INDEX, Always, "13.9", "a triangle is read that is not there";
     KIND, Always, "13", "a program asks what programs of its kind can't";
 }
 
@@ -124,9 +124,8 @@ mod tests {
              | guide | what a program does | `cpu_checked()` | `cpu()` |\n| --- | --- | --- | --- |\n",
         );
         for (_, rule) in ALL {
-            let section = rule.guide.split(", ").next().unwrap();
             let unchecked = if rule.when == When::Always { "ends" } else { "" };
-            writeln!(text, "| {section} | {} | ends | {unchecked} |", rule.what).unwrap();
+            writeln!(text, "| {} | {} | ends | {unchecked} |", rule.guide, rule.what).unwrap();
         }
         text.push_str(
             "\nWhat else the guide leaves undefined, of what this toolkit has, is not for a program to do:\n\n\

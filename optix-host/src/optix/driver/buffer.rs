@@ -11,7 +11,7 @@ use super::sys::CUdeviceptr;
 use crate::error::DriverError as Error;
 
 /// A range of device memory, freed when it is dropped. Its address is a multiple of 256 (cuMemAlloc), which covers the
-/// 128 bytes of acceleration structures (B011) and the 16 bytes of records (D003).
+/// 128 bytes of acceleration structures and the 16 bytes of records.
 ///
 /// Copies run on the context's stream, so they come after everything asked for before them: what a launch writes
 /// can't be read before the launch is done.

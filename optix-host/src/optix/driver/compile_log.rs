@@ -1,6 +1,6 @@
-//! The text of compiling calls (guide §6).
+//! The text of compiling calls (guide 6).
 
-/// A buffer for the text of a compiling call. The driver writes what fits, and its full length (C023).
+/// A buffer for the text of a compiling call. The driver writes what fits, and its full length.
 pub(super) struct CompileLog {
     buffer: Vec<u8>,
     size: usize,

@@ -1,4 +1,4 @@
-//! A device context: one GPU, one stream, one OptiX context, one log (guide §4).
+//! A device context: one GPU, one stream, one OptiX context, one log (guide 4).
 
 use std::any::Any;
 use std::ffi::CString;
@@ -22,7 +22,7 @@ use crate::error::{DriverError as Error, LogMessage, OptixFailure};
 pub struct ContextOptions {
     /// The GPU, counted from 0 as in [`devices`](super::devices).
     pub ordinal: usize,
-    /// Validation mode: slower, every launch is waited for and checked, and debug exceptions are on (guide §4.3).
+    /// Validation mode: slower, every launch is waited for and checked, and debug exceptions are on (guide 4.3).
     pub validation: bool,
     /// How much the driver logs.
     pub log_level: LogLevel,
@@ -30,7 +30,7 @@ pub struct ContextOptions {
     pub cache: DiskCache,
 }
 
-/// The compilation cache on disk (guide §4.2). The environment variable `OPTIX_CACHE_PATH` wins over [`Self::At`].
+/// The compilation cache on disk (guide 4.2). The environment variable `OPTIX_CACHE_PATH` wins over [`Self::At`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum DiskCache {
     /// On, at the driver's default place.
@@ -38,7 +38,7 @@ pub enum DiskCache {
     Default,
     /// Off.
     Off,
-    /// On, in this folder, which is created if it is missing. A network share is undefined behaviour (A039).
+    /// On, in this folder, which is created if it is missing. A network share is undefined behaviour.
     At(PathBuf),
 }
 
@@ -66,7 +66,7 @@ struct Inner {
 }
 
 // SAFETY: the handles are not tied to a thread: CUDA's and OptiX's host functions may be called from any thread and at
-// the same time (A004), given that the CUDA context is current, which every method sees to.
+// the same time, given that the CUDA context is current, which every method sees to.
 unsafe impl Send for Inner {}
 // SAFETY: as above.
 unsafe impl Sync for Inner {}
@@ -170,7 +170,7 @@ impl Context {
         self.0.validation
     }
 
-    /// Whether the driver's compilation cache on disk is on. It switches itself off where it can't write (A036).
+    /// Whether the driver's compilation cache on disk is on. It switches itself off where it can't write.
     pub fn cache_enabled(&self) -> Result<bool, Error> {
         let mut enabled = 0;
         // SAFETY: the context is live and `enabled` is valid for a write.
@@ -249,7 +249,7 @@ impl Context {
             return Ok(());
         }
         let problem = "the objects belong to different contexts";
-        Err(Error::invalid(what, problem, "make all objects of a pipeline from one context (guide §1)"))
+        Err(Error::invalid(what, problem, "make all objects of a pipeline from one context (guide 1)"))
     }
 }
 

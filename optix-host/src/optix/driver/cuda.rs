@@ -180,7 +180,7 @@ pub(super) fn check<T>(
     })
 }
 
-/// A CUDA context that is current on this thread until the guard is dropped; then the one before is again (A008, A009).
+/// A CUDA context that is current on this thread until the guard is dropped; then the one before is again.
 pub(super) struct Current {
     // The guard must be dropped on the thread that made it.
     _not_send: std::marker::PhantomData<*const ()>,

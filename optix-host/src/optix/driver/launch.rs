@@ -1,4 +1,4 @@
-//! Launches (guide §10).
+//! Launches (guide 10).
 
 use std::fmt;
 use std::sync::PoisonError;
@@ -48,7 +48,7 @@ impl Pipeline {
     ///
     /// # Errors
     /// [`Error::Invalid`] for dimensions of 0 or beyond 2^30, a ray-generation record that is not there and a table of
-    /// another context; [`Error::Optix`] otherwise, as for parameters larger than the variable (C036).
+    /// another context; [`Error::Optix`] otherwise, as for parameters larger than the variable.
     ///
     /// # Safety
     /// - Every device address and traversable handle in the parameters and in the records is valid for what the programs

@@ -38,7 +38,7 @@ fn load(library: &'static str) -> Result<Api, Error> {
     };
     // SAFETY: loading the NVIDIA driver's library runs its initialisers, which need nothing from us.
     let library = unsafe { Library::new(library) }.map_err(not_found)?;
-    // SAFETY: the driver exports this function with this signature (guide §3.6).
+    // SAFETY: the driver exports this function with this signature (guide 3.6).
     let query = *unsafe { library.get::<QueryFunctionTable>(b"optixQueryFunctionTable\0") }.map_err(not_found)?;
     // Never unloaded, so `query` and the table stay valid.
     std::mem::forget(library);

@@ -1,9 +1,9 @@
-//! Limits and features (guide §12).
+//! Limits and features (guide 12).
 
 use super::sys::OptixDeviceProperty as P;
 use crate::error::DriverError as Error;
 
-/// Limits and features of a context (guide §12). They depend on the GPU and on the ABI version, not on driver updates.
+/// Limits and features of a context (guide 12). They depend on the GPU and on the ABI version, not on driver updates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
     /// The greatest depth of recursive traces.

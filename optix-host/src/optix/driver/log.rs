@@ -1,4 +1,4 @@
-//! Collecting what the driver logs (guide §4.1).
+//! Collecting what the driver logs (guide 4.1).
 
 use std::collections::VecDeque;
 use std::ffi::{CStr, c_char, c_void};
@@ -75,7 +75,7 @@ impl LogSink {
 pub(super) unsafe extern "C" fn receive(level: u32, tag: *const c_char, text: *const c_char, data: *mut c_void) {
     // SAFETY: the context that registered this callback keeps the sink alive until it is destroyed.
     let sink = unsafe { &*data.cast::<LogSink>() };
-    // SAFETY: the driver passes NUL-terminated strings (A030).
+    // SAFETY: the driver passes NUL-terminated strings.
     let (tag, text) = unsafe { (lossy(tag), lossy(text)) };
     sink.push(LogMessage { level, tag, text: text.trim_end().to_owned() });
 }

@@ -1,4 +1,4 @@
-//! Modules: compiled PTX and the built-in intersection programs (guide §6.3, §9.1).
+//! Modules: compiled PTX and the built-in intersection programs (guide 6.3, 9.1).
 
 use std::ffi::c_char;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use super::options::PipelineOptions;
 use super::sys;
 use crate::error::DriverError as Error;
 
-/// Which built-in intersection program (guide §9.1). It must match the build it is used with (C052, C053).
+/// Which built-in intersection program (guide 9.1). It must match the build it is used with.
 #[derive(Clone, Debug)]
 pub struct BuiltinIntersection<'a> {
     /// Curves of some kind, or spheres.

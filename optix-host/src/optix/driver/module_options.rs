@@ -1,4 +1,4 @@
-//! How a module is compiled (guide §6.3, §6.5.1).
+//! How a module is compiled (guide 6.3, 6.5.1).
 
 use std::ffi::CString;
 
@@ -19,7 +19,7 @@ pub struct ModuleOptions {
     pub debug: DebugLevel,
     /// Parts of the launch parameters that the compiler may replace by constants.
     pub bound_values: Vec<BoundValue>,
-    /// Up to 8 payload types; a type's id is `1 << index` (H013, H016). Needs
+    /// Up to 8 payload types; a type's id is `1 << index`. Needs
     /// [`PipelineOptions::payload_values`] of 0.
     pub payload_types: Vec<PayloadType>,
 }
@@ -56,8 +56,8 @@ pub enum DebugLevel {
     Full,
 }
 
-/// Bytes of the launch parameters that are promised to have this value in every launch (guide §6.5.1). A launch with
-/// another value is undefined behaviour, which validation mode finds (C044).
+/// Bytes of the launch parameters that are promised to have this value in every launch (guide 6.5.1). A launch with
+/// another value is undefined behaviour, which validation mode finds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BoundValue {
     /// Where in the launch parameters, in bytes.
@@ -69,7 +69,7 @@ pub struct BoundValue {
 }
 
 impl ModuleOptions {
-    /// The rules of guide §6.5.1 and §14 that need no driver.
+    /// The rules of guide 6.5.1 and 14 that need no driver.
     pub(super) fn check(&self, pipeline: &PipelineOptions) -> Result<(), Error> {
         const WHAT: &str = "module options";
         if i32::try_from(self.max_registers).is_err() {
@@ -96,7 +96,11 @@ impl ModuleOptions {
         for pair in ranges.windows(2) {
             if pair[1].0 < pair[0].1 {
                 let problem = format!("bound values {:?} and {:?} overlap", pair[0].2, pair[1].2);
-                return Err(Error::invalid(WHAT, problem, "bind each byte of the launch parameters once (C042)"));
+                return Err(Error::invalid(
+                    WHAT,
+                    problem,
+                    "bind each byte of the launch parameters once (guide 6.5.1)",
+                ));
             }
         }
         Ok(())
@@ -107,11 +111,15 @@ impl ModuleOptions {
         let max = MAX_PAYLOAD_TYPES;
         if self.payload_types.len() > max {
             let problem = format!("{} types in one module, more than {max}", self.payload_types.len());
-            return Err(Error::invalid(WHAT, problem, "spread the ray types over several modules (H014)"));
+            return Err(Error::invalid(WHAT, problem, "spread the ray types over several modules (guide 14)"));
         }
         if !self.payload_types.is_empty() && pipeline.payload_values != 0 {
             let problem = format!("the pipeline has {} untyped payload words as well", pipeline.payload_values);
-            return Err(Error::invalid(WHAT, problem, "set payload_values to 0 where payload types are used (H011)"));
+            return Err(Error::invalid(
+                WHAT,
+                problem,
+                "set `payload_values` to 0 where payload types are used (guide 14)",
+            ));
         }
         self.payload_types.iter().try_for_each(PayloadType::check)
     }

@@ -1,4 +1,4 @@
-//! Options that all modules of a pipeline share (guide §6.3, C017, C018).
+//! Options that all modules of a pipeline share (guide 6.3).
 
 use std::ffi::CString;
 
@@ -17,7 +17,7 @@ pub struct PipelineOptions {
     pub motion_blur: bool,
     /// Which graphs are traced.
     pub graph: TraversableGraph,
-    /// 32-bit payload words, up to 32. 0 where the modules declare payload types instead (H011).
+    /// 32-bit payload words, up to 32. 0 where the modules declare payload types instead.
     pub payload_values: u32,
     /// 32-bit attribute words that intersection programs report, up to 8. Triangles use 2 of them.
     pub attribute_values: u32,
@@ -31,7 +31,7 @@ pub struct PipelineOptions {
     pub opacity_micromaps: bool,
 }
 
-/// Which traversable graphs a pipeline traces (B111). The fewer, the faster; tracing another is undefined behaviour.
+/// Which traversable graphs a pipeline traces. The fewer, the faster; tracing another is undefined behaviour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TraversableGraph {
     /// Any.
@@ -68,7 +68,7 @@ impl TraversableGraph {
     }
 }
 
-/// Which exceptions are raised (guide §13.14).
+/// Which exceptions are raised (guide 13.14).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exceptions {
     /// The continuation stack is too small.
@@ -89,7 +89,7 @@ impl Exceptions {
     }
 }
 
-/// A set of primitive kinds. Empty means triangles and custom primitives (C022).
+/// A set of primitive kinds. Empty means triangles and custom primitives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PrimitiveKinds(u32);
 

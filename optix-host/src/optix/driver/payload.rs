@@ -1,17 +1,17 @@
-//! Payload types and the semantics of their words (guide §14).
+//! Payload types and the semantics of their words (guide 14).
 
 use super::sys;
 use crate::error::DriverError as Error;
 use crate::limits::MAX_PAYLOAD_WORDS;
 
-/// A payload: for each 32-bit word, up to 32, who reads and writes it (guide §14).
+/// A payload: for each 32-bit word, up to 32, who reads and writes it (guide 14).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PayloadType {
     /// One entry a word.
     pub semantics: Vec<PayloadSemantics>,
 }
 
-/// Who reads and writes a payload word: two bits a party (H019), joined with [`Self::with`].
+/// Who reads and writes a payload word: two bits a party, joined with [`Self::with`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(transparent)]
 pub struct PayloadSemantics(u32);

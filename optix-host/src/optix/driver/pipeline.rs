@@ -1,4 +1,4 @@
-//! Pipelines: linked programs and their stacks (guide §6.7, §6.8).
+//! Pipelines: linked programs and their stacks (guide 6.7, 6.8).
 
 use std::sync::{Arc, Mutex};
 
@@ -176,7 +176,7 @@ fn check_groups(context: &Context, groups: &[ProgramGroup], options: &PipelineOp
             return Err(Error::invalid(
                 "a pipeline",
                 problem,
-                "use one set of pipeline options for all modules (C017)",
+                "compile all modules of a pipeline with the same pipeline options (guide 6.3)",
             ));
         }
     }

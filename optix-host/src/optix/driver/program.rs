@@ -1,4 +1,4 @@
-//! Program groups: the programs that one kind of record runs (guide §6.6).
+//! Program groups: the programs that one kind of record runs (guide 6.6).
 
 use std::ffi::{CString, c_char};
 use std::ptr;
@@ -18,7 +18,7 @@ use crate::error::DriverError as Error;
 pub struct Entry<'a> {
     /// The module.
     pub module: &'a Module,
-    /// The function's name, with the prefix of its kind such as `__raygen__` (C013).
+    /// The function's name, with the prefix of its kind such as `__raygen__`.
     pub name: &'a str,
 }
 
@@ -71,7 +71,7 @@ struct Inner {
 
 impl ProgramGroup {
     /// Makes a group. `payload` chooses the payload type, and may be `None` where exactly one of the module's fits all
-    /// programs of the group (C056).
+    /// programs of the group.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a name without the prefix of its kind, modules of another context and callables without a
@@ -100,7 +100,7 @@ impl ProgramGroup {
         Ok(Self(Arc::new(Inner { raw, modules: builder.modules, context: context.clone() })))
     }
 
-    /// Writes the header of a record that runs this group (guide §7.1). The bytes may be copied and used for any number
+    /// Writes the header of a record that runs this group (guide 7.1). The bytes may be copied and used for any number
     /// of records.
     ///
     /// # Errors
@@ -239,7 +239,7 @@ fn check_prefix(prefix: &str, name: &str) -> Result<(), Error> {
     Err(Error::invalid(
         "a program group",
         problem,
-        "give the name of a program of that kind, as it is in the PTX (C013)",
+        "give the name of a program of that kind, as it is in the PTX (guide 6.2)",
     ))
 }
 

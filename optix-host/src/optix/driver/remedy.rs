@@ -44,7 +44,7 @@ pub(super) fn optix_remedy(result: OptixResult) -> &'static str {
             "a program uses more attribute words than the pipeline options reserve"
         }
         OptixResult::INVALID_FUNCTION_USE => {
-            "a program calls a device function that its kind may not call (guide §13), or recurses with device calls"
+            "a program calls a device function that its kind may not call (guide 13), or recurses with device calls"
         }
         OptixResult::INVALID_FUNCTION_ARGUMENTS => {
             "a device function needs a compile-time constant or another register class there; the log gives the line"

@@ -1,4 +1,4 @@
-//! The shader binding table in device memory (guide §7).
+//! The shader binding table in device memory (guide 7).
 
 use std::fmt;
 use std::sync::Arc;
@@ -15,11 +15,11 @@ use crate::error::DriverError as Error;
 pub struct SbtSection<'a> {
     /// The records, one after another.
     pub bytes: &'a [u8],
-    /// Bytes from one record to the next, a multiple of 16 (D003, D015).
+    /// Bytes from one record to the next, a multiple of 16.
     pub stride: usize,
 }
 
-/// The sections of a table (D010).
+/// The sections of a table.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SbtSections<'a> {
     /// At least one; a launch runs one of them.
@@ -28,7 +28,7 @@ pub struct SbtSections<'a> {
     pub exception: SbtSection<'a>,
     /// Chosen by the miss index of a trace.
     pub miss: SbtSection<'a>,
-    /// Chosen by the formula of guide §7.3.
+    /// Chosen by the formula of guide 7.3.
     pub hitgroup: SbtSection<'a>,
     /// Chosen by the index of a call.
     pub callables: SbtSection<'a>,

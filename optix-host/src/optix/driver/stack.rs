@@ -1,8 +1,8 @@
-//! Stack sizes (guide §6.8): pure functions from what each program needs to what the pipeline is given.
+//! Stack sizes (guide 6.8): pure functions from what each program needs to what the pipeline is given.
 //!
 //! All sizes are bytes. A sum beyond `u32` saturates; the driver refuses such a size.
 
-/// Stack use of one program group, or the maximum over several (C063). A field is 0 where there is no such program.
+/// Stack use of one program group, or the maximum over several. A field is 0 where there is no such program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GroupStack {
     /// Continuation stack of the ray-generation program.
@@ -67,7 +67,7 @@ pub struct StackSizes {
     pub continuation: u32,
 }
 
-/// An upper bound for any pipeline of these programs (C064): at every trace level the larger of the closest-hit and miss
+/// An upper bound for any pipeline of these programs: at every trace level the larger of the closest-hit and miss
 /// programs, and one intersection and any-hit program besides.
 pub fn conservative(max: GroupStack, depths: CallDepths) -> StackSizes {
     let tree = css_cc_tree(&[(depths.continuation_callables, max.css_cc)]);
@@ -81,30 +81,30 @@ pub fn conservative(max: GroupStack, depths: CallDepths) -> StackSizes {
     with_direct(max.dss_dc, max.dss_dc, depths, continuation)
 }
 
-/// A smaller bound (C065): intersection and any-hit run at the deepest level only while no closest-hit or miss program
+/// A smaller bound: intersection and any-hit run at the deepest level only while no closest-hit or miss program
 /// does, so the larger of the two counts there.
 pub fn compute(max: GroupStack, depths: CallDepths) -> StackSizes {
     let tree = css_cc_tree(&[(depths.continuation_callables, max.css_cc)]);
     with_direct(max.dss_dc, max.dss_dc, depths, continuation(max, tree, depths.trace))
 }
 
-/// As [`compute`], when the direct callables reached from traversal and those reached from state are known (C066).
+/// As [`compute`], when the direct callables reached from traversal and those reached from state are known.
 pub fn compute_split(max: GroupStack, dss_from_traversal: u32, dss_from_state: u32, depths: CallDepths) -> StackSizes {
     let tree = css_cc_tree(&[(depths.continuation_callables, max.css_cc)]);
     with_direct(dss_from_traversal, dss_from_state, depths, continuation(max, tree, depths.trace))
 }
 
-/// As [`compute`], when the stack of the largest tree of continuation callables is known (C067, [`css_cc_tree`]).
+/// As [`compute`], when the stack of the largest tree of continuation callables is known ([`css_cc_tree`]).
 pub fn compute_with_tree(max: GroupStack, css_cc_tree: u32, depths: CallDepths) -> StackSizes {
     with_direct(max.dss_dc, max.dss_dc, depths, continuation(max, css_cc_tree, depths.trace))
 }
 
-/// The stack of the largest tree of continuation callables, given depth and size of each kind of tree (C067).
+/// The stack of the largest tree of continuation callables, given depth and size of each kind of tree.
 pub fn css_cc_tree(trees: &[(u32, u32)]) -> u32 {
     trees.iter().map(|&(depth, css)| depth.saturating_mul(css)).max().unwrap_or(0)
 }
 
-/// A path tracer without callables (C068): the ray-generation program traces camera rays, whose closest-hit program
+/// A path tracer without callables: the ray-generation program traces camera rays, whose closest-hit program
 /// traces shadow rays, whose programs trace nothing. `camera` and `shadow` hold the maxima of each ray type's programs.
 pub fn simple_path_tracer(css_rg: u32, camera: GroupStack, shadow: GroupStack) -> StackSizes {
     let shadow_level = shadow.css_ms.max(shadow.css_ch).max(traversal(shadow));

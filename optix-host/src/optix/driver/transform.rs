@@ -1,4 +1,4 @@
-//! Transform traversables (guide §5.9, §5.10.4, §5.10.5).
+//! Transform traversables (guide 5.9, 5.10.4, 5.10.5).
 
 use std::sync::Arc;
 
@@ -17,13 +17,12 @@ pub struct Transform(Arc<Inner>);
 struct Inner {
     handle: u64,
     child: Traversable,
-    // The handle is made from the address, so the buffer never moves (B106).
+    // The handle is made from the address, so the buffer never moves.
     _buffer: DeviceBuffer,
 }
 
 impl Transform {
-    /// A constant row-major 3x4 matrix. Meant for use below motion transforms; without motion an instance does the same
-    /// (B108).
+    /// A constant row-major 3x4 matrix. It is meant for use below motion transforms; without motion an instance does the same.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a matrix without an inverse.
@@ -46,7 +45,7 @@ impl Transform {
         Self::motion(child.into(), Type::MATRIX_MOTION_TRANSFORM, keys.len(), keys.as_flattened(), motion)
     }
 
-    /// Scale with shear and pivot, rotation, translation, one a motion key, interpolated separately (guide §5.10.5). The
+    /// Scale with shear and pivot, rotation, translation, one a motion key, interpolated separately (guide 5.10.5). The
     /// order of the 16 numbers is that of [`sys::OptixSRTData`]; the quaternions must have unit length.
     ///
     /// # Errors
@@ -70,7 +69,7 @@ impl Transform {
     fn new(child: Traversable, kind: Type, bytes: Bytes, size: usize) -> Result<Self, Error> {
         debug_assert_eq!(bytes.0.len(), size);
         let context = child.context().clone();
-        // Aligned to 256 bytes, more than the 64 that are asked for (B105).
+        // Aligned to 256 bytes, more than the 64 that are asked for.
         let buffer = DeviceBuffer::from_bytes(&context, &bytes.0)?;
         let mut handle = 0;
         // SAFETY: the context is live, the address is that of a transform of this kind, and `handle` is valid for a write.

@@ -14,7 +14,10 @@ use std::path::{Path, PathBuf};
 
 /// A rule of `checklist.tsv`.
 struct Rule {
+    /// By which the cases name it.
     id: String,
+    /// Where the guide has it; empty for a rule of this toolkit.
+    guide: String,
     text: String,
     /// Why no test covers it; empty if one does.
     open: String,
@@ -49,9 +52,9 @@ fn table(name: &str) -> Vec<Vec<String>> {
 }
 
 fn rules() -> Vec<Rule> {
-    let rule = |line: Vec<String>| match <[String; 3]>::try_from(line) {
-        Ok([id, text, open]) => Rule { id, text, open },
-        Err(line) => panic!("three columns expected: {line:?}"),
+    let rule = |line: Vec<String>| match <[String; 4]>::try_from(line) {
+        Ok([id, guide, text, open]) => Rule { id, guide, text, open },
+        Err(line) => panic!("four columns expected: {line:?}"),
     };
     table("checklist.tsv").into_iter().map(rule).collect()
 }
@@ -80,9 +83,8 @@ fn page(rules: &[Rule], cases: &[Case]) -> String {
          Generated from the first lines of the cases in `tests/macros/ui` by `CONTRACTS=overwrite cargo test -p \
          optix-macro-tests --test index`; do not edit.\n\n\
          {} cases must fail, each with the message beside it (`.stderr`); each is put right in a module of the same name \
-         in a program that must compile. Ids C, D, G, H and I are items of the guide's checklist, in our words; T are \
-         rules of this toolkit.\n\n\
-         ## Rules with tests\n\n| rule | what holds | does not compile | put right in |\n| --- | --- | --- | --- |\n",
+         in a program that must compile. Rules without a section of the OptiX guide are this toolkit's own.\n\n\
+         ## Rules with tests\n\n| guide | what holds | does not compile | put right in |\n| --- | --- | --- | --- |\n",
         cases.len()
     );
     for rule in rules.iter().filter(|rule| rule.open.is_empty()) {
@@ -93,26 +95,32 @@ fn page(rules: &[Rule], cases: &[Case]) -> String {
             of_rule.map(|case| format!("[{0}](../tests/macros/ui/pass/{0}.rs)", case.twin)).collect();
         passes.sort();
         passes.dedup();
-        let _ = writeln!(page, "| {} | {} | {} | {} |", rule.id, rule.text, fails.join(", "), passes.join(", "));
+        let _ = writeln!(page, "| {} | {} | {} | {} |", rule.guide, rule.text, fails.join(", "), passes.join(", "));
     }
-    page.push_str("\n## Cases\n\n| case | what holds | rules |\n| --- | --- | --- |\n");
+    page.push_str("\n## Cases\n\n| case | what holds | guide |\n| --- | --- | --- |\n");
     for case in cases {
+        let mut guide: Vec<&str> = Vec::new();
+        for rule in rules.iter().filter(|rule| case.ids.contains(&rule.id)) {
+            guide.extend(rule.guide.split(", ").filter(|section| !section.is_empty()));
+        }
+        guide.sort_by_key(|section| section.split('.').map(|part| part.parse().unwrap_or(0)).collect::<Vec<u32>>());
+        guide.dedup();
         let _ = writeln!(
             page,
             "| [{0}](../tests/macros/ui/{0}.stderr) | {1} | {2} |",
             case.name,
             case.what,
-            case.ids.join(", ")
+            guide.join(", ")
         );
     }
     page.push_str(&device_functions::section(&table("device_functions.tsv")));
     page.push_str(&traits::section(&root(), &table("public_traits.tsv")));
     page.push_str(
-        "\n## Rules without a test of this kind\n\nItems that the checklist says a compiler can check, and why no case \
-         covers them.\n\n| rule | what holds | why not here |\n| --- | --- | --- |\n",
+        "\n## Rules without a test of this kind\n\nWhat a compiler could check, and why no case covers it.\n\n\
+         | guide | what holds | why not here |\n| --- | --- | --- |\n",
     );
     for rule in rules.iter().filter(|rule| !rule.open.is_empty()) {
-        let _ = writeln!(page, "| {} | {} | {} |", rule.id, rule.text, rule.open);
+        let _ = writeln!(page, "| {} | {} | {} |", rule.guide, rule.text, rule.open);
     }
     page
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// What the guide says, case by case rather than by formula (§5.1, §5.4, §13.2).
+/// What the guide says, case by case rather than by formula (guide 5.1, 5.4, 13.2).
 fn expected(geometry_off: bool, instance: InstanceFlags, ray: u32) -> Verdict {
     use Verdict::*;
     let state = match instance {

@@ -40,7 +40,7 @@ fn at(x: f32) -> RayQuery {
 
 #[test]
 fn gas_indices_follow_build_input_order() {
-    // Guide §7.3.2: 4, 1 and 2 records give [0, 3], 4 and [5, 6].
+    // Guide 7.3.2: 4, 1 and 2 records give [0, 3], 4 and [5, 6].
     let accel = Accel::from(row(&[4, 1, 2], 100));
     for place in 0..7 {
         let hit = trace(Some(&accel), &at(2.0 * place as f32), &mut Opaque).unwrap();
@@ -57,7 +57,7 @@ fn gas_indices_follow_build_input_order() {
 
 #[test]
 fn sbt_index_of_the_guides_example() {
-    // Guide §7.3.5: instances with offsets 0 and 6 of a GAS with 1 + 2 records, two ray types.
+    // Guide 7.3.5: instances with offsets 0 and 6 of a GAS with 1 + 2 records, two ray types.
     let gas = shared(row(&[1, 2], 0));
     let instances = [0, 6].iter().enumerate().map(|(i, &sbt_offset)| Instance {
         transform: moved(100.0 * i as f32, 0.0, 0.0),

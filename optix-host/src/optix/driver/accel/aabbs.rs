@@ -1,4 +1,4 @@
-//! Boxes of custom primitives (guide §5.1).
+//! Boxes of custom primitives (guide 5.1).
 
 use super::super::context::Context;
 use super::super::sys;
@@ -9,7 +9,7 @@ use super::source::{Source, Staging};
 use super::{Accel, AccelOptions};
 use crate::error::DriverError as Error;
 
-/// Boxes of custom primitives (B037). Each box must enclose its primitive, at every time between two keys.
+/// Boxes of custom primitives. Each box must enclose its primitive, at every time between two keys.
 #[derive(Clone, Debug)]
 pub struct AabbInput<'a> {
     /// Minimum and maximum as six floats, one list a motion key or one list. Each list has the same length.

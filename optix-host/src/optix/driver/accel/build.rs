@@ -1,4 +1,4 @@
-//! The build itself: sizes, memory, compaction (guide §5, §5.8).
+//! The build itself: sizes, memory, compaction (guide 5, 5.8).
 
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ impl RawInput {
         Self::new(Type::INSTANCES, |union| union.instance_array = instance_array, Box::default(), Box::default())
     }
 
-    /// The union is zero apart from the member that counts (A016).
+    /// The union is zero apart from the member that counts.
     fn new(kind: Type, fill: impl FnOnce(&mut Union), buffers: Box<[u64]>, flags: Box<[u32]>) -> Self {
         let mut input = sys::OptixBuildInput { kind, ..Default::default() };
         fill(&mut input.input);
@@ -43,7 +43,7 @@ impl RawInput {
     }
 }
 
-/// Builds, compacts if asked to and if it saves memory (B096), and waits.
+/// Builds, compacts if asked to and if it saves memory, and waits.
 ///
 /// # Safety
 /// The device addresses in `inputs` are valid and hold what the build input says, until the stream has got past the
@@ -63,7 +63,7 @@ pub(super) unsafe fn build(
     let table = context.table();
     let _current = context.enter()?;
     let mut sizes = sys::OptixAccelBufferSizes::default();
-    // SAFETY: the context is live, the options and inputs are locals, and the call reads no device memory (B010).
+    // SAFETY: the context is live, the options and inputs are locals, and the call reads no device memory.
     let result =
         unsafe { table.accel_compute_memory_usage(context.raw(), &raw_options, inputs.as_ptr(), count, &mut sizes) };
     context.check("optixAccelComputeMemoryUsage", result)?;

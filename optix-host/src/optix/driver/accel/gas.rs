@@ -1,4 +1,4 @@
-//! Geometry acceleration structures of any kind of primitive (guide §5, §5.1).
+//! Geometry acceleration structures of any kind of primitive (guide 5, 5.1).
 
 use super::super::context::Context;
 use super::build::{RawInput, build};
@@ -7,7 +7,7 @@ use super::source::{Source, Staging};
 use super::{Accel, AccelOptions};
 use crate::error::DriverError as Error;
 
-/// A geometry build input. Inputs of one build have one type (B004), and so do the elements of a slice.
+/// A geometry build input. Inputs of one build have one type, and so do the elements of a slice.
 pub(super) trait Input {
     fn primitives(&self) -> Result<u32, Error>;
     fn records(&self) -> &Records<'_>;
@@ -43,11 +43,19 @@ fn check_gas<I: Input>(context: &Context, inputs: &[I], options: &AccelOptions) 
     let (limits, keyed) = (context.limits(), primitives.saturating_mul(options.keys() as u64));
     if keyed > limits.max_primitives_per_gas.into() {
         let problem = format!("{primitives} primitives times {} motion keys", options.keys());
-        return Err(Error::invalid(WHAT, problem, "split the geometry over several structures under instances (B006)"));
+        return Err(Error::invalid(
+            WHAT,
+            problem,
+            "split the geometry over several structures, and put those into an instance structure (guide 12)",
+        ));
     }
     if records > limits.max_sbt_records_per_gas.into() {
         let problem = format!("{records} records, more than {}", limits.max_sbt_records_per_gas);
-        return Err(Error::invalid(WHAT, problem, "split the geometry over several structures under instances (B008)"));
+        return Err(Error::invalid(
+            WHAT,
+            problem,
+            "split the geometry over several structures, and put those into an instance structure (guide 12)",
+        ));
     }
     Ok(())
 }
@@ -60,7 +68,11 @@ pub(super) fn check_keys<T: bytemuck::NoUninit>(
 ) -> Result<(), Error> {
     if lists.len() != keys {
         let problem = format!("{} lists for {keys} motion keys", lists.len());
-        return Err(Error::invalid(what, problem, "give one list a motion key, one without motion (B024)"));
+        return Err(Error::invalid(
+            what,
+            problem,
+            "give a list of vertices or boxes for each motion key; without motion there is one key",
+        ));
     }
     if lists.windows(2).any(|pair| pair[0].len() != pair[1].len()) {
         return Err(Error::invalid(what, "the motion keys differ in length", "give every key the same elements"));

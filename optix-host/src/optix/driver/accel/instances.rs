@@ -1,4 +1,4 @@
-//! Instances (guide §5.4).
+//! Instances (guide 5.4).
 
 use super::super::context::Context;
 use super::super::limits::Limits;
@@ -20,7 +20,7 @@ const _: () = {
     assert!(InstanceFlags::ENFORCE_ANYHIT.bits() == Raw::ENFORCE_ANYHIT.0);
 };
 
-/// A placed copy of a traversable (B060).
+/// A placed copy of a traversable.
 #[derive(Clone, Debug)]
 pub struct Instance {
     /// What is placed.
@@ -99,12 +99,16 @@ fn check_count(count: usize, limits: &Limits) -> Result<(), Error> {
         return Ok(());
     }
     let problem = format!("{count} instances, more than {}", limits.max_instances_per_ias);
-    Err(Error::invalid("an instance acceleration structure", problem, "put an instance level between (B007)"))
+    Err(Error::invalid(
+        "an instance acceleration structure",
+        problem,
+        "split the instances over several instance structures, and put those into one (guide 12)",
+    ))
 }
 
 fn check(index: usize, instance: &Instance, limits: &Limits) -> Result<(), Error> {
     const WHAT: &str = "an instance";
-    let remedy = "ids and record offsets have 28 bits (B062)";
+    let remedy = "ids and record offsets have 28 bits (guide 5.4)";
     if instance.id > limits.max_instance_id {
         let problem = format!("instance {index} has id {}, more than {}", instance.id, limits.max_instance_id);
         return Err(Error::invalid(WHAT, problem, remedy));

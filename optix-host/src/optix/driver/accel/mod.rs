@@ -1,4 +1,4 @@
-//! Acceleration structures (guide §5).
+//! Acceleration structures (guide 5).
 
 mod aabbs;
 mod build;
@@ -22,7 +22,7 @@ pub use records::{GeometryFlags, Records, SbtIndices};
 pub use source::Source;
 pub use triangles::{Indices, TriangleInput};
 
-/// A geometry or instance acceleration structure. Cheap to clone; keeps its memory and its children alive (B016).
+/// A geometry or instance acceleration structure. Cheap to clone; keeps its memory and its children alive.
 #[derive(Clone, Debug)]
 pub struct Accel(Arc<Inner>);
 

@@ -1,4 +1,4 @@
-//! Build options (guide §5.5, §5.10).
+//! Build options (guide 5.5, 5.10).
 
 use super::super::sys::{
     OptixAccelBuildOptions, OptixBuildFlags, OptixBuildOperation, OptixMotionFlags, OptixMotionOptions,
@@ -12,15 +12,15 @@ pub struct AccelOptions {
     pub preference: Preference,
     /// Copy the structure to a smaller buffer after the build, when it is smaller.
     pub compact: bool,
-    /// Programs may read vertices by handle (B079).
+    /// Programs may read vertices by handle.
     pub random_vertex_access: bool,
-    /// Programs may read instances by handle (B080).
+    /// Programs may read instances by handle.
     pub random_instance_access: bool,
     /// Motion keys; `None` for a static structure.
     pub motion: Option<Motion>,
 }
 
-/// What matters more. The two are mutually exclusive (B076).
+/// What matters more. The two are mutually exclusive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Preference {
     /// Neither.
@@ -32,7 +32,7 @@ pub enum Preference {
     FastBuild,
 }
 
-/// Motion keys, at equal steps of time from `begin` to `end` (guide §5.10.1).
+/// Motion keys, at equal steps of time from `begin` to `end` (guide 5.10.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     /// Number of keys, at least 2.

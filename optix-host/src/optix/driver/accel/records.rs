@@ -1,10 +1,10 @@
-//! Records of a build input (guide §5.1).
+//! Records of a build input (guide 5.1).
 
 use super::super::sys;
 use super::source::{Source, Staging};
 use crate::error::DriverError as Error;
 
-/// What holds for all primitives of a record (guide §5.1). A set, joined with [`Self::with`].
+/// What holds for all primitives of a record (guide 5.1). A set, joined with [`Self::with`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GeometryFlags(u32);
 
@@ -25,7 +25,7 @@ impl GeometryFlags {
     }
 }
 
-/// The records of a build input (B028 to B030).
+/// The records of a build input.
 #[derive(Clone, Debug)]
 pub struct Records<'a> {
     /// One entry a record, at least one.
@@ -61,7 +61,7 @@ impl Records<'_> {
                 1 => Ok(()),
                 _ => {
                     let problem = format!("{records} records and no record indices");
-                    Err(Error::invalid(WHAT, problem, "give one record, or an index a primitive (B028)"))
+                    Err(Error::invalid(WHAT, problem, "give one record, or an index for each primitive (guide 5.1)"))
                 }
             };
         };
@@ -77,9 +77,11 @@ impl Records<'_> {
         match largest {
             Some(index) if index as usize >= records => {
                 let problem = format!("record index {index}, but there are {records} records");
-                Err(Error::invalid(WHAT, problem, "count the records from 0, for each build input (B029)"))
+                Err(Error::invalid(WHAT, problem, "count the records of each build input from 0 (guide 5.1)"))
             }
-            _ if records == 0 => Err(Error::invalid(WHAT, "there is no record", "give at least one (B028)")),
+            _ if records == 0 => {
+                Err(Error::invalid(WHAT, "there is no record", "give each build input at least one (guide 5.1)"))
+            }
             _ => Ok(()),
         }
     }

@@ -1,4 +1,4 @@
-//! Triangles (guide §5.1).
+//! Triangles (guide 5.1).
 
 use super::super::context::Context;
 use super::super::sys;
@@ -18,7 +18,7 @@ pub enum Indices<'a> {
     U32(Source<'a, [u32; 3]>),
 }
 
-/// Triangles (B021).
+/// Triangles.
 #[derive(Clone, Debug)]
 pub struct TriangleInput<'a> {
     /// Positions, one list a motion key or one list. Each list has the same length.
@@ -37,7 +37,7 @@ impl Accel {
     /// Builds a geometry acceleration structure of triangles, and returns when it is built.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for data that break a rule of guide §5.1, [`Error::Optix`] or [`Error::Cuda`] otherwise.
+    /// [`Error::Invalid`] for data that break a rule of guide 5.1, [`Error::Optix`] or [`Error::Cuda`] otherwise.
     pub fn triangles(context: &Context, inputs: &[TriangleInput<'_>], options: &AccelOptions) -> Result<Self, Error> {
         gas(context, inputs, options)
     }
@@ -103,7 +103,7 @@ impl Input for TriangleInput<'_> {
         }
         if let Some(matrix) = self.pre_transform {
             array.transform_format = sys::OptixTransformFormat::MATRIX_FLOAT12;
-            // SAFETY: the caller promises the host data. The copy is aligned to 256 bytes, more than the 16 that are asked for (B025).
+            // SAFETY: the caller promises the host data. The copy is aligned to 256 bytes, more than the 16 that are asked for.
             array.pre_transform = unsafe { staging.place(&Source::host(matrix.as_slice()))? };
         }
         // SAFETY: the caller promises the host data.

@@ -1,4 +1,4 @@
-//! Acceleration structures: build inputs, options, instances, emitted properties (guide §5).
+//! Acceleration structures: build inputs, options, instances, emitted properties (guide 5).
 
 use super::{CUdeviceptr, OptixPrimitiveType, OptixTraversableHandle};
 
@@ -36,7 +36,7 @@ abi_consts! {
         MATRIX_FLOAT12 = 8673,
     }
 
-    /// A set of bits, one entry a record (guide §5.1).
+    /// A set of bits, one entry a record (guide 5.1).
     OptixGeometryFlags: u32 {
         NONE = 0,
         DISABLE_ANYHIT = 1,
@@ -44,7 +44,7 @@ abi_consts! {
         DISABLE_TRIANGLE_FACE_CULLING = 4,
     }
 
-    /// A set of bits (guide §5.4).
+    /// A set of bits (guide 5.4).
     OptixInstanceFlags: u32 {
         NONE = 0,
         DISABLE_TRIANGLE_FACE_CULLING = 1,
@@ -55,7 +55,7 @@ abi_consts! {
         DISABLE_OPACITY_MICROMAPS = 32,
     }
 
-    /// A set of bits (guide §5.5).
+    /// A set of bits (guide 5.5).
     OptixBuildFlags: u32 {
         NONE = 0,
         ALLOW_UPDATE = 1,
@@ -73,7 +73,7 @@ abi_consts! {
         UPDATE = 8546,
     }
 
-    /// A set of bits (guide §5.10.1).
+    /// A set of bits (guide 5.10.1).
     OptixMotionFlags: u16 {
         NONE = 0,
         START_VANISH = 1,

@@ -1,4 +1,4 @@
-//! Device context: creation options, log callback, properties (guide §4).
+//! Device context: creation options, log callback, properties (guide 4).
 
 use core::ffi::{c_char, c_void};
 
@@ -8,13 +8,13 @@ pub type OptixLogCallback =
     Option<unsafe extern "C" fn(level: u32, tag: *const c_char, message: *const c_char, data: *mut c_void)>;
 
 abi_consts! {
-    /// Which checks the driver makes at run time (guide §4.3).
+    /// Which checks the driver makes at run time (guide 4.3).
     OptixDeviceContextValidationMode: u32 {
         OFF = 0,
         ALL = 0xffff_ffff,
     }
 
-    /// A property that can be asked of a context (guide §4, §12). Each value is a 32-bit unsigned integer.
+    /// A property that can be asked of a context (guide 4, 12). Each value is a 32-bit unsigned integer.
     OptixDeviceProperty: u32 {
         LIMIT_MAX_TRACE_DEPTH = 8193,
         LIMIT_MAX_TRAVERSABLE_GRAPH_DEPTH = 8194,

@@ -1,7 +1,7 @@
 //! Macros that write down an ABI and check it while compiling.
 
 /// Declares `#[repr(C)]` structures whose size, alignment and field offsets are stated beside them and asserted at
-/// compile time. `Default` is all zero bytes, which is what the API asks for before filling (guide §3.6, A016).
+/// compile time. `Default` is all zero bytes, which is what the API asks for before filling (guide 3.6).
 macro_rules! abi_structs {
     ($(
         $(#[$meta:meta])*
@@ -49,7 +49,7 @@ macro_rules! abi_consts {
     )*};
 }
 
-/// Declares opaque handles: distinct pointer-sized newtypes. Copying one does not create an object (guide §3.5).
+/// Declares opaque handles: distinct pointer-sized newtypes. Copying one does not create an object (guide 3.5).
 macro_rules! handles {
     ($($(#[$meta:meta])* $name:ident;)*) => {$(
         $(#[$meta])*
@@ -63,7 +63,7 @@ macro_rules! handles {
         }
 
         // SAFETY: a name, not a reference: it is only handed back to the driver, whose functions take it from any
-        // thread and at the same time (guide §3.2).
+        // thread and at the same time (guide 3.2).
         unsafe impl Send for $name {}
         // SAFETY: as above.
         unsafe impl Sync for $name {}

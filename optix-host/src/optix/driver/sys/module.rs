@@ -1,4 +1,4 @@
-//! Modules: compile options, bound values, payload types, built-in intersection programs (guide §6.3, §6.5.1, §14).
+//! Modules: compile options, bound values, payload types, built-in intersection programs (guide 6.3, 6.5.1, 14).
 
 use core::ffi::{c_char, c_void};
 

@@ -1,4 +1,4 @@
-//! Pipelines, the shader binding table and launches (guide §6.3, §6.7, §7, §10).
+//! Pipelines, the shader binding table and launches (guide 6.3, 6.7, 7, 10).
 
 use core::ffi::c_char;
 

@@ -1,4 +1,4 @@
-//! Program groups (guide §6.6).
+//! Program groups (guide 6.6).
 
 use core::ffi::c_char;
 

@@ -1,7 +1,7 @@
 //! Result codes.
 
 abi_consts! {
-    /// What every host call returns (guide §3.1).
+    /// What every host call returns (guide 3.1).
     OptixResult: i32 {
         SUCCESS = 0,
         INVALID_VALUE = 7001,

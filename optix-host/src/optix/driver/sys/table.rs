@@ -4,7 +4,7 @@ use core::ffi::{c_char, c_uint, c_void};
 
 use super::*;
 
-/// The exported entry point of `libnvoptix.so.1` (guide §3.6): ABI version, three reserved arguments that are zero,
+/// The exported entry point of `libnvoptix.so.1` (guide 3.6): ABI version, three reserved arguments that are zero,
 /// the table to fill and its size in bytes.
 pub type QueryFunctionTable = unsafe extern "C" fn(
     abi_id: i32,

@@ -1,4 +1,4 @@
-//! Transform traversables, which the application lays out in device memory (guide §5.9, §5.10).
+//! Transform traversables, which the application lays out in device memory (guide 5.9, 5.10).
 
 use super::{OptixMotionOptions, OptixTraversableHandle};
 
@@ -27,7 +27,7 @@ abi_structs! {
         32 transform: [[f32; 12]; 2],
     }
 
-    /// Scale with shear and pivot, rotation as a quaternion, translation (guide §5.10.5).
+    /// Scale with shear and pivot, rotation as a quaternion, translation (guide 5.10.5).
     OptixSRTData: size 64 align 4 {
         0 sx: f32,
         4 a: f32,
