@@ -16,6 +16,7 @@ pub mod cpu;
 pub mod cust;
 mod device;
 mod error;
+pub mod geometry;
 mod launch;
 mod limits;
 pub mod optix;
@@ -27,13 +28,14 @@ pub mod scene;
 pub use build::Scene;
 pub use device::{BackendKind, Device};
 pub use error::{Error, LaunchError, LayoutDifference, PipelineError, ReferenceError, Result, SceneError};
+pub use geometry::{Aabb, CustomPrimitives, TriangleMesh};
 pub use glam;
 pub use launch::Launch;
 pub use optix::OptixOptions;
 pub use optix_device_rs::host::{Buffer, Buffer2d, InstanceTable, MemoryError, TriangleTable, World};
 pub use optix_report as report;
 pub use pipeline::{Pipeline, PipelineBuilder};
-pub use scene::{Aabb, Accel, Boxes, Geometry, Instance, Material, TriangleMesh};
+pub use scene::{Accel, Geometry, Instance, Material};
 
 /// The PTX of a shader crate that the build script compiled with `optix_toolchain::shaders`; the crate is named as in
 /// Rust paths. Empty where no device compiler was found.

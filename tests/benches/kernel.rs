@@ -15,9 +15,9 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput};
 use optix_host::cpu::kernel::{
-    Accel, AnyHit, Candidate, Gas, GeometryFlags, Programs, RayQuery, Reporter, SbtMapping, Site, TriangleInput,
-    ray_flags, trace, trace_portable,
+    Accel, AnyHit, Candidate, Gas, Programs, RayQuery, Reporter, Site, ray_flags, trace, trace_portable,
 };
+use optix_host::geometry::{BuildInput, GeometryFlags, Records, TriangleArray};
 use optix_tests::meshes;
 use rayon::prelude::*;
 use scene::{Mesh, Rays};
@@ -76,14 +76,10 @@ fn main() {
 }
 
 fn build(mesh: &Mesh) -> Accel {
-    Gas::triangles(vec![TriangleInput {
-        vertices: mesh.vertices.clone(),
-        indices: Some(mesh.indices.clone()),
-        sbt: SbtMapping::single(GeometryFlags { disable_anyhit: true, ..GeometryFlags::default() }),
-        primitive_index_offset: 0,
-    }])
-    .expect("a valid mesh")
-    .into()
+    let array = TriangleArray::new(mesh.vertices.clone(), Some(mesh.indices.clone())).expect("a valid mesh");
+    let input =
+        BuildInput::new(array, Records::one(GeometryFlags::DISABLE_ANYHIT)).expect("a record for all triangles");
+    Gas::new(vec![input]).expect("no more triangles than a GAS has").into()
 }
 
 /// A contestant: traces one ray, and gives the distance of its hit.

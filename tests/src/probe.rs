@@ -1,7 +1,7 @@
 //! Traces lists of rays through the probe pipeline.
 
 use glam::{Affine3A, Vec3};
-use optix_host::{Aabb, Boxes, Buffer, Device, Pipeline, Result, Scene, TriangleMesh, World};
+use optix_host::{Aabb, Buffer, CustomPrimitives, Device, Pipeline, Result, Scene, TriangleMesh, World};
 use path_tracer::shaders::Ball;
 use probe_shaders::{Probe, ProbeFrameHost, Surface, respawn};
 pub use probe_shaders::{ProbeHit, ProbeRay};
@@ -57,7 +57,7 @@ impl Tracer {
         }
         if !balls.is_empty() {
             let ball = scene.material(Ball { radius: 1.0, reflectance: Vec3::ONE })?;
-            let unit = scene.geometry(Boxes(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }]))?;
+            let unit = scene.geometry(CustomPrimitives::new(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }]))?;
             let gas = scene.gas([unit.with(&ball)]).compact().build()?;
             instances.extend(balls.iter().zip(parts.len()..).map(|(&at, id)| gas.at(at).id(id as u32)));
         }

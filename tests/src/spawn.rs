@@ -3,7 +3,7 @@
 use glam::{Affine3A, DAffine3, DVec3, Mat3, Quat, Vec3};
 use optix_device_rs::pipeline::HasRayGen;
 use optix_device_rs::rng::Pcg32;
-use optix_host::{Aabb, BackendKind, Boxes, Device, Pipeline, Result, Scene, TriangleMesh, World};
+use optix_host::{Aabb, BackendKind, CustomPrimitives, Device, Pipeline, Result, Scene, TriangleMesh, World};
 use path_tracer::shaders::Ball;
 pub use probe_shaders::spawn::{Departure, Spawn, Start};
 use probe_shaders::spawn::{NONE, Sheet, Slab, SpawnFrameHost, between, leave, margin, neighbour};
@@ -72,12 +72,12 @@ impl Field {
                 Content::Ball(radius) => {
                     let ball = scene.material(Ball { radius: *radius, reflectance: Vec3::ONE })?;
                     let size = Vec3::splat(*radius);
-                    let geometry = scene.geometry(Boxes(&[Aabb { min: -size, max: size }]))?;
+                    let geometry = scene.geometry(CustomPrimitives::new(&[Aabb { min: -size, max: size }]))?;
                     scene.gas([geometry.with(&ball)]).build()?
                 }
                 Content::Slab(half) => {
                     let slab = scene.material(Slab { half: *half })?;
-                    let geometry = scene.geometry(Boxes(&[Aabb { min: -*half, max: *half }]))?;
+                    let geometry = scene.geometry(CustomPrimitives::new(&[Aabb { min: -*half, max: *half }]))?;
                     scene.gas([geometry.with(&slab)]).build()?
                 }
             };

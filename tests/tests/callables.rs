@@ -3,7 +3,7 @@
 use glam::{Affine3A, UVec2, Vec3};
 use optix_device_rs::host::{CallableRecord, CallableTable};
 use optix_device_rs::prelude::{Continuation, Direct};
-use optix_host::{Aabb, BackendKind, Boxes, Buffer, Device, Error, Pipeline, Scene, TriangleMesh, World};
+use optix_host::{Aabb, BackendKind, Buffer, CustomPrimitives, Device, Error, Pipeline, Scene, TriangleMesh, World};
 use optix_tests::devices;
 use optix_tests::probe::PTX;
 use probe_shaders::callables::{
@@ -49,7 +49,7 @@ impl Machine {
         let floor = scene.gas([triangle.with(&floor)]).build().unwrap();
         let round = scene.material(RoundHost { texture: b }).unwrap();
         let at = Vec3::new(8.0, 0.0, 0.0);
-        let boxes = scene.geometry(Boxes(&[Aabb { min: at - 1.0, max: at + 1.0 }])).unwrap();
+        let boxes = scene.geometry(CustomPrimitives::new(&[Aabb { min: at - 1.0, max: at + 1.0 }])).unwrap();
         let ball = scene.gas([boxes.with(&round)]).build().unwrap();
         let here = Affine3A::IDENTITY;
         let world = scene.ias([floor.at(here), ball.at(here)]).build().unwrap().world().unwrap();

@@ -3,7 +3,7 @@
 //! reflection and scales that differ.
 
 use glam::{Affine3A, Mat3A, Vec3, Vec3A};
-use optix_host::{Aabb, BackendKind, Boxes, Device, Pipeline, Scene, TriangleMesh};
+use optix_host::{Aabb, BackendKind, CustomPrimitives, Device, Pipeline, Scene, TriangleMesh};
 use optix_tests::{devices, probe::PTX};
 use path_tracer::shaders::Ball;
 use probe_shaders::queries::{Answer, Bare, Queries, QueryFrameHost, Reading, read};
@@ -35,7 +35,7 @@ fn answers(device: &Device) -> (Vec<Answer>, Vec<Reading>) {
     let members = [mesh.with(&bare), aside.with(&bare)];
     let (triangle, triangles) = scene.gas(members).compact().build_with_triangles().unwrap();
     let ball = scene.material(Ball { radius: 1.0, reflectance: Vec3::ONE }).unwrap();
-    let unit = scene.geometry(Boxes(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }])).unwrap();
+    let unit = scene.geometry(CustomPrimitives::new(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }])).unwrap();
     let ball = scene.gas([unit.with(&ball)]).build().unwrap();
     // (2x + 1, 3y + 2, 3 - 4z), then (10 - y, x, z).
     let inner =

@@ -2,7 +2,7 @@
 //! of rays in a pipeline without motion: on every machine there is.
 
 use glam::Vec3;
-use optix_host::{Aabb, Boxes, Device, Pipeline, Scene};
+use optix_host::{Aabb, CustomPrimitives, Device, Pipeline, Scene};
 use optix_tests::{devices, probe::PTX};
 use probe_shaders::reports::{ADDED, BEGIN, Cell, ReportFrameHost, Reports};
 
@@ -16,7 +16,7 @@ struct Written {
 fn run(device: &Device, time: f32) -> Written {
     let mut scene = Scene::<Reports>::new(device);
     let cell = scene.material(Cell {}).unwrap();
-    let unit = scene.geometry(Boxes(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }])).unwrap();
+    let unit = scene.geometry(CustomPrimitives::new(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }])).unwrap();
     let world = scene.gas([unit.with(&cell)]).build().unwrap().world().unwrap();
     let pipeline = Pipeline::for_scene(&scene).ptx(PTX).build().unwrap();
     let (counts, found) = (device.zeroed(4).unwrap(), device.zeroed(8).unwrap());

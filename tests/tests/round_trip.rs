@@ -4,7 +4,7 @@
 use glam::*;
 use optix_device_rs::prelude::Words;
 use optix_device_rs::rng::Pcg32;
-use optix_host::{Aabb, Boxes, Buffer, Buffer2d, Device, Pipeline, Scene, World};
+use optix_host::{Aabb, Buffer, Buffer2d, CustomPrimitives, Device, Pipeline, Scene, World};
 use optix_tests::devices;
 use round_trip_shaders::cargo::*;
 use round_trip_shaders::hits::{self, HITS, Hits};
@@ -164,7 +164,7 @@ fn boxes(places: impl Iterator<Item = Vec3>) -> Vec<Aabb> {
 fn by_payload(device: &Device, bits: &mut Bits) {
     let memory = Memory::new(device, WAYS * STATIONS);
     let mut scene = Scene::<There>::new(device);
-    let boxes = scene.geometry(Boxes(&boxes([Vec3::ZERO].into_iter()))).unwrap();
+    let boxes = scene.geometry(CustomPrimitives::new(&boxes([Vec3::ZERO].into_iter()))).unwrap();
     let cargo = bits.cargo(&memory);
     let material = scene.material(cargo.clone()).unwrap();
     let world = scene.gas([boxes.with(&material)]).build().unwrap().world().unwrap();
@@ -209,7 +209,7 @@ fn by_attributes(device: &Device, bits: &mut Bits) {
         ($($hit:ident)*) => {$(
             let material = scene.material(hits::$hit::Material {}).unwrap();
             let place = hits::place(parts.len());
-            parts.push(scene.geometry(Boxes(&boxes([place].into_iter()))).unwrap().with(&material));
+            parts.push(scene.geometry(CustomPrimitives::new(&boxes([place].into_iter()))).unwrap().with(&material));
         )*};
     }
     materials!(numbers wide nested floats quats maps doubles triples quadruples dquats integers signed halves

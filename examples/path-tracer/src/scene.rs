@@ -3,7 +3,7 @@
 use crate::knot::torus_knot;
 use crate::mesh::{Mesh, fit_into};
 use glam::{Affine3A, Quat, Vec3};
-use optix_host::{Aabb, Boxes, Device, Result, Scene, TriangleMesh, World};
+use optix_host::{Aabb, CustomPrimitives, Device, Result, Scene, TriangleMesh, World};
 use path_tracer_shaders::{AreaLight, Ball, Emitter, Lambert, Leaf, PathTracer, Pinhole, SmoothHost};
 
 /// The default scene on a device.
@@ -103,7 +103,7 @@ impl Cornell {
         let leaf = scene.gas([leaf.with(&green_leaf)]).compact().build()?;
 
         let mirror = scene.material(Ball { radius: 1.0, reflectance: Vec3::new(0.92, 0.93, 0.95) })?;
-        let ball = scene.geometry(Boxes(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }]))?;
+        let ball = scene.geometry(CustomPrimitives::new(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }]))?;
         let ball = scene.gas([ball.with(&mirror)]).compact().build()?;
 
         let here = Affine3A::IDENTITY;

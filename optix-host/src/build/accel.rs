@@ -2,13 +2,14 @@
 
 use super::Scene;
 use crate::Result;
+use crate::geometry::GasPrimitive;
 use crate::scene::{Accel, GasMember, Instance, SceneError};
-use optix_device_rs::attributes::{Geometry as GeometryKindOf, Triangles};
+use optix_device_rs::attributes::Triangles;
 use optix_device_rs::host::{InstanceTable, TriangleTable};
 use optix_device_rs::pipeline::Pipeline;
 
 /// Gathers what a GAS is built of.
-pub struct GasBuilder<'s, P, G> {
+pub struct GasBuilder<'s, P, G: GasPrimitive> {
     scene: &'s mut Scene<P>,
     members: Vec<GasMember<P, G>>,
     compact: bool,
@@ -22,10 +23,7 @@ pub struct IasBuilder<'s, P> {
 
 impl<P: Pipeline> Scene<P> {
     /// A geometry acceleration structure of these, all of one kind (guide 5).
-    pub fn gas<G: GeometryKindOf>(
-        &mut self,
-        members: impl IntoIterator<Item = GasMember<P, G>>,
-    ) -> GasBuilder<'_, P, G> {
+    pub fn gas<G: GasPrimitive>(&mut self, members: impl IntoIterator<Item = GasMember<P, G>>) -> GasBuilder<'_, P, G> {
         GasBuilder { members: members.into_iter().collect(), compact: false, scene: self }
     }
 
@@ -35,7 +33,7 @@ impl<P: Pipeline> Scene<P> {
     }
 }
 
-impl<P: Pipeline, G: GeometryKindOf> GasBuilder<'_, P, G> {
+impl<P: Pipeline, G: GasPrimitive> GasBuilder<'_, P, G> {
     /// Compacts the structure after the build (guide 5.8).
     pub fn compact(mut self) -> Self {
         self.compact = true;
@@ -50,7 +48,7 @@ impl<P: Pipeline, G: GeometryKindOf> GasBuilder<'_, P, G> {
     fn build_for(self, random_vertex_access: bool) -> Result<Accel<P>> {
         let Scene { device, state, .. } = self.scene;
         let input = state.gas_input(&self.members, self.compact, random_vertex_access)?;
-        let built = device.backend.build_gas(&input)?;
+        let built = device.backend.build_gas(input)?;
         state.add_gas(&self.members, built)
     }
 }

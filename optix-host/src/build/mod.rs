@@ -5,7 +5,8 @@ mod callable;
 
 pub use accel::{GasBuilder, IasBuilder};
 
-use crate::scene::{Geometry, IntoGeometry, Material, SceneState};
+use crate::geometry::IntoGeometry;
+use crate::scene::{Geometry, Material, SceneState};
 use crate::{Device, Result};
 use optix_device_rs::host::Twin;
 use optix_device_rs::payload::Payload;
@@ -27,7 +28,7 @@ impl<P: Pipeline> Scene<P> {
         Self { device: device.clone(), state, pipeline: PhantomData }
     }
 
-    /// Checks and copies geometry: [`TriangleMesh`](crate::TriangleMesh) or [`Boxes`](crate::Boxes).
+    /// Checks and copies geometry: [`TriangleMesh`](crate::TriangleMesh) or [`CustomPrimitives`](crate::CustomPrimitives).
     pub fn geometry<I: IntoGeometry>(&mut self, geometry: I) -> Result<Geometry<I::Kind>> {
         Ok(Geometry::of(geometry)?)
     }

@@ -1,14 +1,14 @@
 //! The CPU as a backend: it turns the scene's description into the kernel's structures and runs launches.
 
-use super::kernel::{self, AabbInput, Accel, Gas, GeometryFlags, Ias, Instance, SbtMapping, TriangleInput};
+use super::kernel::{Accel, Gas, Ias, Instance};
 use super::machine::{self, Callables, Job, Reached};
 use super::memory::CpuMemory;
 use crate::Result;
 use crate::backend::{Backend, Linked, Running, next_device_id};
 use crate::plan::Plan;
 use crate::sbt::ShaderBindingTable;
-use crate::scene::{BuildInput, BuiltAccel, GasInput, GeometryData, IasInput, SceneError};
-use optix_device_rs::host::{DeviceId, GeometryKind, Handle, Kept, Memory};
+use crate::scene::{BuiltAccel, GasInput, IasInput, SceneError};
+use optix_device_rs::host::{DeviceId, Handle, Kept, Memory};
 use std::any::Any;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -52,12 +52,8 @@ impl Backend for CpuBackend {
         Ok(Arc::new(CpuMemory::zeroed(self.id, bytes, width)?))
     }
 
-    fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel> {
-        let gas = match input.kind {
-            GeometryKind::Triangles => Gas::triangles(input.inputs.iter().filter_map(triangles).collect())?,
-            GeometryKind::Custom => Gas::custom(input.inputs.iter().filter_map(boxes).collect())?,
-        };
-        Ok(built(gas.into()))
+    fn build_gas(&self, input: GasInput) -> Result<BuiltAccel> {
+        Ok(built(Gas::new(input.inputs)?.into()))
     }
 
     fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel> {
@@ -129,34 +125,6 @@ fn reached<'a>(kept: impl IntoIterator<Item = &'a Kept>) -> Reached<'a> {
         }
     }
     reached
-}
-
-fn sbt_mapping(input: &BuildInput) -> SbtMapping {
-    let flags = input.record_has_anyhit.iter().map(|&has| GeometryFlags { disable_anyhit: !has, ..Default::default() });
-    SbtMapping { flags: flags.collect(), per_primitive: input.record_of_primitive.clone() }
-}
-
-fn triangles(input: &BuildInput) -> Option<TriangleInput> {
-    match &*input.geometry {
-        GeometryData::Triangles { vertices, indices } => Some(TriangleInput {
-            vertices: vertices.clone(),
-            indices: indices.clone(),
-            sbt: sbt_mapping(input),
-            primitive_index_offset: 0,
-        }),
-        GeometryData::Boxes(_) => None,
-    }
-}
-
-fn boxes(input: &BuildInput) -> Option<AabbInput> {
-    match &*input.geometry {
-        GeometryData::Boxes(boxes) => Some(AabbInput {
-            boxes: boxes.iter().map(|b| kernel::Aabb::new(b.min.to_array(), b.max.to_array())).collect(),
-            sbt: sbt_mapping(input),
-            primitive_index_offset: 0,
-        }),
-        GeometryData::Triangles { .. } => None,
-    }
 }
 
 struct CpuPipeline {

@@ -1,5 +1,6 @@
 //! What can be wrong with the input of an acceleration structure.
 
+use super::GeometryError;
 use thiserror::Error;
 
 /// Why an acceleration structure was not built. Inputs are counted from 0 in the order given.
@@ -7,28 +8,12 @@ use thiserror::Error;
 #[expect(missing_docs, reason = "the messages say what the variants and their fields are")]
 #[non_exhaustive]
 pub enum BuildError {
-    #[error(
-        "build input {input}: corner {corner} of triangle {triangle} has vertex index {index}, but there are only \
-         {vertices} vertices (0 to {last}); correct the index buffer",
-        last = .vertices.wrapping_sub(1)
-    )]
-    IndexOutOfRange { input: usize, triangle: usize, corner: usize, index: u32, vertices: usize },
-    #[error("build input {input}: without an index buffer the {vertices} vertices must be a multiple of 3")]
-    IncompleteTriangle { input: usize, vertices: usize },
-    #[error("build input {input}: vertex {vertex} is {position:?}; every coordinate must be finite")]
-    NonFiniteVertex { input: usize, vertex: usize, position: [f32; 3] },
-    #[error("build input {input}: box {primitive} runs from {min:?} to {max:?}; every coordinate must be finite")]
-    NonFiniteBox { input: usize, primitive: usize, min: [f32; 3], max: [f32; 3] },
-    #[error("build input {input} has no SBT record; give one set of geometry flags per record, at least one")]
-    NoSbtRecord { input: usize },
-    #[error("build input {input} has {records} SBT records, so it needs one record index per primitive (guide 5.1)")]
-    NoPerPrimitiveIndex { input: usize, records: usize },
-    #[error("build input {input} has {primitives} primitives but {indices} per-primitive SBT indices")]
-    PerPrimitiveLength { input: usize, primitives: usize, indices: usize },
-    #[error("build input {input}: primitive {primitive} has SBT index {index}, but the input has {records} records")]
-    SbtIndexOutOfRange { input: usize, primitive: usize, index: u32, records: usize },
-    #[error("build input {input}: primitive index offset {offset} plus {primitives} primitives exceeds 32 bits")]
-    PrimitiveIndexOverflow { input: usize, offset: u32, primitives: usize },
+    #[error("geometry {input} of the GAS: {error}")]
+    Input {
+        input: usize,
+        #[source]
+        error: GeometryError,
+    },
     #[error("{count} {what} in one acceleration structure; at most {limit} are possible, split it over several")]
     TooMany { what: &'static str, count: usize, limit: usize },
     #[error("instance {instance}: {field} is {value:#x}, but it has only 28 bits (guide 5.4)")]

@@ -43,6 +43,36 @@ pub enum GeometryError {
         /// Its greatest corner.
         max: Vec3,
     },
+    /// More vertices than 32 bits can number.
+    TooManyVertices {
+        /// How many there are.
+        count: usize,
+    },
+    /// More or fewer material or record numbers than primitives.
+    RecordNumbers {
+        /// How many primitives there are.
+        primitives: usize,
+        /// For how many it is said which material they have.
+        numbers: usize,
+    },
+    /// A primitive with the number of no material.
+    NoSuchRecord {
+        /// Which primitive.
+        primitive: usize,
+        /// Its number.
+        number: u32,
+        /// How many materials, and so records, there are.
+        records: usize,
+    },
+    /// No record at all.
+    NoRecord,
+    /// Primitive indices that programs can't be told.
+    PrimitiveIndexOverflow {
+        /// The offset.
+        offset: u32,
+        /// How many primitives there are.
+        primitives: usize,
+    },
     /// More than an acceleration structure takes.
     TooMany {
         /// How many there are.
@@ -70,6 +100,23 @@ impl GeometryError {
             Self::BadBox { index, min, max } => (
                 format!("box {index} is not finite with min <= max: {min} to {max}"),
                 "correct its corners; a box without end reaches from f32::MIN to f32::MAX",
+            ),
+            Self::TooManyVertices { count } => (
+                format!("{count} vertices are more than indices of 32 bits can name"),
+                "split the geometry over several",
+            ),
+            Self::RecordNumbers { primitives, numbers } => (
+                format!("it has {primitives} primitives, but {numbers} material numbers"),
+                "give `with_each` one number for each primitive",
+            ),
+            Self::NoSuchRecord { primitive, number, records } => (
+                format!("primitive {primitive} has material number {number}, but there are {records} materials"),
+                "number the materials from 0, in the order in which `with_each` is given them",
+            ),
+            Self::NoRecord => ("it has no hit-group record".into(), "give it at least one"),
+            Self::PrimitiveIndexOverflow { offset, primitives } => (
+                format!("{primitives} primitives with indices from {offset} on do not fit 32 bits"),
+                "give a smaller primitive index offset",
             ),
             Self::TooMany { count } => (
                 format!(

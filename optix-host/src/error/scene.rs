@@ -17,26 +17,6 @@ pub enum SceneError {
         /// The geometry that has it.
         geometry: usize,
     },
-    /// Geometry with a material per primitive that says so for more or fewer primitives than there are.
-    MaterialNumbers {
-        /// Which geometry.
-        geometry: usize,
-        /// How many primitives it has.
-        primitives: usize,
-        /// For how many a material was given.
-        numbers: usize,
-    },
-    /// A primitive whose material there is not.
-    NoSuchMaterial {
-        /// Which geometry.
-        geometry: usize,
-        /// Which of its primitives.
-        primitive: usize,
-        /// The number of the primitive's material.
-        number: u32,
-        /// How many materials the geometry has.
-        materials: usize,
-    },
     /// A record that holds what another device made.
     RecordOfAnotherDevice {
         /// What it holds, with an article.
@@ -129,17 +109,6 @@ impl SceneError {
             Self::ForeignMaterial { geometry } => (
                 format!("geometry {geometry} of the GAS has a material of another scene"),
                 "make the material with this scene (`scene.material(..)`)",
-            ),
-            Self::MaterialNumbers { geometry, primitives, numbers } => (
-                format!("geometry {geometry} of the GAS has {primitives} primitives, but {numbers} material numbers"),
-                "give `with_each` one number for each primitive",
-            ),
-            Self::NoSuchMaterial { geometry, primitive, number, materials } => (
-                format!(
-                    "primitive {primitive} of geometry {geometry} has material number {number}, but there are {materials} \
-                     materials"
-                ),
-                "number the materials from 0, in the order in which `with_each` is given them",
             ),
             Self::RecordOfAnotherDevice { holds } => {
                 (format!("a record holds {holds} of another device"), "make it with this scene's device")

@@ -1,17 +1,17 @@
 //! OptiX as a backend: it turns the scene's description and the plan into driver objects.
 
 use super::driver::{
-    self, AabbInput, Accel, AccelOptions, BoundValue, Context, ContextOptions, DebugLevel, DeviceBuffer, Entry,
-    GeometryFlags, Indices, Instance, Intersection, LaunchArgs, LinkOptions, Module, ModuleOptions, PayloadSemantics,
-    PayloadType, Pipeline, PipelineOptions, PrimitiveKinds, ProgramGroup, Programs, Records, SbtIndices, SbtSection,
-    SbtSections, ShaderBindingTable as DeviceTable, Source, TraversableGraph, TriangleInput, stack::CallDepths,
+    self, Accel, AccelOptions, BoundValue, Context, ContextOptions, DebugLevel, DeviceBuffer, Entry, Instance,
+    Intersection, LaunchArgs, LinkOptions, Module, ModuleOptions, PayloadSemantics, PayloadType, Pipeline,
+    PipelineOptions, PrimitiveKinds, ProgramGroup, Programs, SbtSection, SbtSections,
+    ShaderBindingTable as DeviceTable, TraversableGraph, stack::CallDepths,
 };
 use super::{OptixOptions, feedback};
 use crate::backend::{Backend, Linked, Running, next_device_id};
 use crate::error::PipelineError;
 use crate::plan::{Graph, Plan};
 use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
-use crate::scene::{BuildInput, BuiltAccel, GasInput, GeometryData, IasInput, SceneError};
+use crate::scene::{BuiltAccel, GasInput, IasInput, SceneError};
 use crate::{Error, Result};
 use optix_device_rs::host::{self as device, DeviceId, GeometryKind, Kept, Memory, MemoryError};
 use std::collections::HashMap;
@@ -60,28 +60,10 @@ impl Backend for OptixBackend {
         Ok(index)
     }
 
-    fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel> {
-        let GasInput { compact, random_vertex_access, .. } = *input;
+    fn build_gas(&self, input: GasInput) -> Result<BuiltAccel> {
+        let GasInput { inputs, compact, random_vertex_access } = input;
         let options = AccelOptions { compact, random_vertex_access, ..Default::default() };
-        let accel = match input.kind {
-            GeometryKind::Triangles => {
-                let inputs: Vec<_> = input.inputs.iter().filter_map(triangles).collect();
-                Accel::triangles(&self.context, &inputs, &options)?
-            }
-            GeometryKind::Custom => {
-                let boxes: Vec<_> = input.inputs.iter().filter_map(boxes).collect();
-                let inputs: Vec<_> = boxes
-                    .iter()
-                    .map(|(boxes, input)| AabbInput {
-                        aabbs: vec![Source::host(boxes)],
-                        records: records(input),
-                        primitive_index_offset: 0,
-                    })
-                    .collect();
-                Accel::aabbs(&self.context, &inputs, &options)?
-            }
-        };
-        Ok(built(accel))
+        Ok(built(Accel::gas(&self.context, &inputs, &options)?))
     }
 
     fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel> {
@@ -137,40 +119,6 @@ unsafe impl Memory for OptixMemory {
 
 fn built(accel: Accel) -> BuiltAccel {
     BuiltAccel { handle: accel.handle(), bytes: accel.size(), owner: Arc::new(accel) }
-}
-
-fn records(input: &BuildInput) -> Records<'_> {
-    let flags = input.record_has_anyhit.iter();
-    Records {
-        flags: flags.map(|&has| if has { GeometryFlags::NONE } else { GeometryFlags::DISABLE_ANYHIT }).collect(),
-        indices: input.record_of_primitive.as_deref().map(|indices| SbtIndices::U32(Source::host(indices))),
-    }
-}
-
-fn triangles(input: &BuildInput) -> Option<TriangleInput<'_>> {
-    match &*input.geometry {
-        GeometryData::Triangles { vertices, indices } => Some(TriangleInput {
-            vertices: vec![Source::host(vertices)],
-            indices: indices.as_deref().map(|indices| Indices::U32(Source::host(indices))),
-            pre_transform: None,
-            records: records(input),
-            primitive_index_offset: 0,
-        }),
-        GeometryData::Boxes(_) => None,
-    }
-}
-
-fn boxes(input: &BuildInput) -> Option<(Vec<[f32; 6]>, &BuildInput)> {
-    match &*input.geometry {
-        GeometryData::Triangles { .. } => None,
-        GeometryData::Boxes(boxes) => {
-            let boxes = boxes.iter().map(|b| {
-                let ([a, b, c], [d, e, f]) = (b.min.to_array(), b.max.to_array());
-                [a, b, c, d, e, f]
-            });
-            Some((boxes.collect(), input))
-        }
-    }
 }
 
 /// A pipeline with its table on the device.

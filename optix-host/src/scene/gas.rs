@@ -1,43 +1,56 @@
 //! What geometry acceleration structures are built of (guide 5).
 
-use super::{Accel, BuildInput, BuiltAccel, GasInput, Geometry, GeometryData, SceneState};
+use super::{Accel, BuiltAccel, GasInput, Geometry, Material, SceneState, Slot};
 use crate::Result;
-use crate::error::SceneError;
-use optix_device_rs::attributes::Geometry as GeometryKindOf;
-use optix_device_rs::pipeline::Pipeline;
+use crate::error::{BuildError, SceneError};
+use crate::geometry::{BuildInput, GasPrimitive, GeometryFlags, PrimitiveArray, Records};
+use optix_device_rs::pipeline::HasHitGroup;
+use optix_device_rs::record::SbtRecord;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-/// Geometry with its material, to go into a GAS.
-pub struct GasMember<P, G> {
-    data: Arc<GeometryData>,
-    /// Whose material it is, per record.
+/// Geometry with its materials, to go into a GAS.
+pub struct GasMember<P, G: GasPrimitive> {
+    primitives: Arc<G::Array>,
+    /// One for each material.
+    records: Records,
+    /// Whose each material is.
     scenes: Vec<u64>,
-    /// Material and hit group per record.
-    records: Vec<(u32, u32)>,
-    record_of_primitive: Option<Vec<u32>>,
-    types: PhantomData<fn(P, G)>,
+    slots: Vec<Slot>,
+    pipeline: PhantomData<fn(P)>,
 }
 
-impl<P, G> GasMember<P, G> {
-    pub(super) fn new(
+impl<P, G: GasPrimitive> GasMember<P, G> {
+    /// `records` makes records of the flags that all of them have, since all materials of one type have one hit group.
+    pub(super) fn new<Rec: SbtRecord>(
         geometry: &Geometry<G>,
-        scenes: Vec<u64>,
-        records: Vec<(u32, u32)>,
-        record_of_primitive: Option<Vec<u32>>,
-    ) -> Self {
-        Self { data: geometry.data.clone(), scenes, records, record_of_primitive, types: PhantomData }
+        materials: &[Material<P, Rec>],
+        records: impl FnOnce(GeometryFlags) -> Records,
+    ) -> Self
+    where
+        P: HasHitGroup<Rec, G>,
+    {
+        let group = <P as HasHitGroup<Rec, G>>::INDEX;
+        let has_anyhit = P::DESCRIPTION.hitgroups[group as usize].rays.iter().any(|ray| ray.anyhit.is_some());
+        let flags = if has_anyhit { GeometryFlags::NONE } else { GeometryFlags::DISABLE_ANYHIT };
+        Self {
+            primitives: geometry.primitives.clone(),
+            records: records(flags),
+            scenes: materials.iter().map(|material| material.scene).collect(),
+            slots: materials.iter().map(|material| (material.index, group)).collect(),
+            pipeline: PhantomData,
+        }
     }
 
     /// How many primitives the geometry of each record has.
     pub(crate) fn primitives_by_record(&self) -> impl Iterator<Item = u32> {
-        self.records.iter().map(|_| self.data.primitives() as u32)
+        self.slots.iter().map(|_| self.primitives.len() as u32)
     }
 }
 
 impl SceneState {
     /// What a machine builds a GAS of, after a check that its members fit this scene and each other.
-    pub(crate) fn gas_input<P: Pipeline, G: GeometryKindOf>(
+    pub(crate) fn gas_input<P, G: GasPrimitive>(
         &self,
         members: &[GasMember<P, G>],
         compact: bool,
@@ -46,46 +59,26 @@ impl SceneState {
         if members.is_empty() {
             return Err(SceneError::EmptyGas.into());
         }
-        for (i, member) in members.iter().enumerate() {
+        let inputs = members.iter().enumerate().map(|(index, member)| {
             if member.scenes.iter().any(|&scene| scene != self.id) {
-                return Err(SceneError::ForeignMaterial { geometry: i }.into());
+                return Err(SceneError::ForeignMaterial { geometry: index }.into());
             }
-            check_records(i, member)?;
-        }
-        let description = P::DESCRIPTION;
-        let inputs = members.iter().map(|member| BuildInput {
-            geometry: member.data.clone(),
-            record_has_anyhit: member
-                .records
-                .iter()
-                .map(|&(_, group)| description.hitgroups[group as usize].rays.iter().any(|r| r.anyhit.is_some()))
-                .collect(),
-            record_of_primitive: member.record_of_primitive.clone(),
+            let input = BuildInput::new(member.primitives.clone(), member.records.clone());
+            Ok(input.map_err(|error| BuildError::Input { input: index, error })?)
         });
-        Ok(GasInput { kind: G::KIND, inputs: inputs.collect(), compact, random_vertex_access })
+        let inputs = G::inputs(inputs.collect::<Result<_>>()?);
+        Ok(GasInput { inputs, compact, random_vertex_access })
     }
 
     /// Takes the GAS that a machine built of these members.
-    pub(crate) fn add_gas<P, G: GeometryKindOf>(
+    pub(crate) fn add_gas<P, G: GasPrimitive>(
         &mut self,
         members: &[GasMember<P, G>],
         built: BuiltAccel,
     ) -> Result<Accel<P>> {
-        let records = members.iter().flat_map(|m| m.records.iter().copied()).collect();
-        let first_slot = self.slots_for(records)?;
+        let slots = members.iter().flat_map(|m| m.slots.iter().copied()).collect();
+        let first_slot = self.slots_for(slots)?;
         self.usage.add(G::KIND);
         Ok(self.add_accel(built, 0, first_slot, Vec::new()))
-    }
-}
-
-fn check_records<P, G>(geometry: usize, member: &GasMember<P, G>) -> Result<(), SceneError> {
-    let Some(which) = &member.record_of_primitive else { return Ok(()) };
-    let (primitives, materials) = (member.data.primitives(), member.records.len());
-    if which.len() != primitives {
-        return Err(SceneError::MaterialNumbers { geometry, primitives, numbers: which.len() });
-    }
-    match which.iter().position(|&w| w as usize >= materials) {
-        Some(primitive) => Err(SceneError::NoSuchMaterial { geometry, primitive, number: which[primitive], materials }),
-        None => Ok(()),
     }
 }

@@ -1,26 +1,16 @@
 //! What a machine is given to build acceleration structures, and what it gives back.
 
-use super::{GeometryData, InstanceFlags};
-use optix_device_rs::host::GeometryKind;
+use super::InstanceFlags;
+use crate::geometry::GasInputs;
 use std::any::Any;
 use std::sync::Arc;
 
-/// The build inputs of a GAS.
+/// What a GAS is built of.
 pub(crate) struct GasInput {
-    pub kind: GeometryKind,
-    pub inputs: Vec<BuildInput>,
+    pub inputs: GasInputs,
     pub compact: bool,
     /// Whether programs read its vertices by handle.
     pub random_vertex_access: bool,
-}
-
-/// One build input: a geometry with its records.
-pub(crate) struct BuildInput {
-    pub geometry: Arc<GeometryData>,
-    /// Per record: whether any of its programs has an any-hit.
-    pub record_has_anyhit: Vec<bool>,
-    /// Per primitive: its record; none with a single record.
-    pub record_of_primitive: Option<Vec<u32>>,
 }
 
 /// What an IAS is built of.

@@ -2,9 +2,6 @@
 
 use super::{RecordData, SceneState, numbered};
 use crate::Result;
-use optix_device_rs::attributes::Geometry as GeometryKindOf;
-use optix_device_rs::pipeline::HasHitGroup;
-use optix_device_rs::record::SbtRecord;
 use std::marker::PhantomData;
 
 /// A material of a scene: the data of its record, to be put on geometry whose kind the pipeline has a hit group for.
@@ -32,15 +29,5 @@ impl SceneState {
         let index = numbered(self.materials.len(), "materials")?;
         self.materials.push(MaterialState { record });
         Ok(Material { scene: self.id, index, types: PhantomData })
-    }
-}
-
-impl<P, Rec: SbtRecord> Material<P, Rec> {
-    /// The hit group it has on geometry `G`.
-    pub(crate) const fn hitgroup<G: GeometryKindOf>(&self) -> u32
-    where
-        P: HasHitGroup<Rec, G>,
-    {
-        <P as HasHitGroup<Rec, G>>::INDEX
     }
 }

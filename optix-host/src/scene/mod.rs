@@ -16,10 +16,9 @@ pub(crate) use accel::AccelShared;
 pub(crate) use callable::{CallableShared, CallableState};
 pub use flags::InstanceFlags;
 pub use gas::GasMember;
-pub use geometry::{Aabb, Boxes, Geometry, TriangleMesh};
-pub(crate) use geometry::{GeometryData, IntoGeometry};
+pub use geometry::Geometry;
 pub use ias::Instance;
-pub(crate) use input::{BuildInput, BuiltAccel, GasInput, IasInput, InstanceInput};
+pub(crate) use input::{BuiltAccel, GasInput, IasInput, InstanceInput};
 pub use material::Material;
 pub(crate) use material::MaterialState;
 

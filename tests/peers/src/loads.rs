@@ -3,7 +3,7 @@
 use crate::load::{Film, Load};
 use glam::{Affine3A, Quat, UVec2, Vec3};
 use optix_device_rs::rng::Pcg32;
-use optix_host::{Aabb, Boxes, Device, Geometry, Result, Scene, TriangleMesh};
+use optix_host::{Aabb, CustomPrimitives, Device, Geometry, Result, Scene, TriangleMesh};
 use path_tracer::scene::{self, Cornell};
 use path_tracer::shaders::{FrameHost, PathTracer, Pinhole};
 use peer_shaders::field::{Field, FieldFrameHost, Gyroid};
@@ -96,7 +96,7 @@ pub fn foliage(device: &Device, size: UVec2, across: u32) -> Result<Load<Foliage
 pub fn field(device: &Device, size: UVec2) -> Result<Load<Field>> {
     let mut scene = Scene::<Field>::new(device);
     let gyroid = scene.material(Gyroid { frequency: 1.1, thickness: 0.03 })?;
-    let unit = scene.geometry(Boxes(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }]))?;
+    let unit = scene.geometry(CustomPrimitives::new(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }]))?;
     let gas = scene.gas([unit.with(&gyroid)]).compact().build()?;
     let places = [(0.0, 0.0, 1.0), (-1.1, 0.75, 0.45), (1.1, 0.7, 0.4), (-1.05, -0.8, 0.4), (1.1, -0.75, 0.45)];
     let instances = places.iter().zip(0..).map(|(&(x, y, scale), i)| {

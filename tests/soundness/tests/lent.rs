@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use optix_device_rs::prelude::*;
-use optix_host::{Aabb, Boxes, Device, Error, Pipeline, Scene};
+use optix_host::{Aabb, CustomPrimitives, Device, Error, Pipeline, Scene};
 use scoped_tls::scoped_thread_local;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -158,7 +158,7 @@ pipeline! {
 fn lends(device: &Device) -> (Pipeline<Lends>, FrameHost) {
     let mut scene = Scene::<Lends>::new(device);
     let ball = scene.material(Ball {}).unwrap();
-    let shape = scene.geometry(Boxes(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }])).unwrap();
+    let shape = scene.geometry(CustomPrimitives::new(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }])).unwrap();
     let world = scene.gas([shape.with(&ball)]).build().unwrap().world().unwrap();
     let pipeline = Pipeline::for_scene(&scene).build().unwrap();
     (pipeline, FrameHost { out: device.zeroed(2).unwrap(), world, mode: 0 })

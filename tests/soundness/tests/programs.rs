@@ -3,7 +3,7 @@
 #![forbid(unsafe_code)]
 
 use optix_device_rs::prelude::*;
-use optix_host::{Aabb, Boxes, Device, Error, Pipeline, Scene, TriangleMesh, glam::Affine3A};
+use optix_host::{Aabb, CustomPrimitives, Device, Error, Pipeline, Scene, TriangleMesh, glam::Affine3A};
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -201,7 +201,7 @@ fn made(device: &Device) -> Made {
     let paint = scene.material(Paint { id: 21 }).unwrap();
     let glass = scene.material(BallHost { ids: device.buffer(&[10u32]).unwrap() }).unwrap();
     let triangle = scene.geometry(TriangleMesh::new(&[Vec3::ZERO, Vec3::X, Vec3::Y])).unwrap();
-    let shape = scene.geometry(Boxes(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }])).unwrap();
+    let shape = scene.geometry(CustomPrimitives::new(&[Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE }])).unwrap();
     let (flat, round) =
         (scene.gas([triangle.with(&paint)]).build().unwrap(), scene.gas([shape.with(&glass)]).build().unwrap());
     let instances = [flat.at(Affine3A::IDENTITY), round.at(Affine3A::from_translation(10.0 * Vec3::X))];

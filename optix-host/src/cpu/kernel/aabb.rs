@@ -1,5 +1,6 @@
 //! Axis-aligned boxes.
 
+use crate::geometry;
 use bytemuck::{Pod, Zeroable};
 
 /// An axis-aligned box, laid out as `OptixAabb` (guide 5.1): six `f32`, 24 bytes, lengths in the units of its space.
@@ -44,5 +45,11 @@ impl Aabb {
     pub(super) fn half_area(&self) -> f64 {
         let [x, y, z] = std::array::from_fn(|a| f64::from(self.max[a]) - f64::from(self.min[a]));
         x * y + y * z + z * x
+    }
+}
+
+impl From<&geometry::Aabb> for Aabb {
+    fn from(bounds: &geometry::Aabb) -> Self {
+        Self { min: bounds.min.to_array(), max: bounds.max.to_array() }
     }
 }

@@ -1,17 +1,7 @@
 //! Geometry, instance and ray flags, and what they say together about any-hit programs and face culling.
 
+use crate::geometry::GeometryFlags;
 use crate::scene::InstanceFlags;
-
-/// Flags of the primitives that map to one SBT record (`OptixGeometryFlags`, guide 5.1).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct GeometryFlags {
-    /// Any-hit is never called for these primitives, unless an instance or the ray enforces it.
-    pub disable_anyhit: bool,
-    /// At most one any-hit call per primitive and ray. This executor never makes more, so the flag changes nothing here.
-    pub require_single_anyhit_call: bool,
-    /// Triangles are hit from both sides, whatever cull flags the ray has.
-    pub disable_triangle_face_culling: bool,
-}
 
 /// The bits of `OptixRayFlags` (guide 13.2).
 pub mod ray_flags {
@@ -43,7 +33,7 @@ pub fn any_hit_verdict(geometry: GeometryFlags, instance: InstanceFlags, ray: u3
     let enabled = if instance.contains(InstanceFlags::DISABLE_ANYHIT) {
         false
     } else {
-        instance.contains(InstanceFlags::ENFORCE_ANYHIT) || !geometry.disable_anyhit
+        instance.contains(InstanceFlags::ENFORCE_ANYHIT) || !geometry.contains(GeometryFlags::DISABLE_ANYHIT)
     };
     let culled = if enabled { ray_flags::CULL_ENFORCED_ANYHIT } else { ray_flags::CULL_DISABLED_ANYHIT };
     if ray & culled != 0 {
@@ -57,6 +47,6 @@ pub fn any_hit_verdict(geometry: GeometryFlags, instance: InstanceFlags, ray: u3
 pub fn face_culled(geometry: GeometryFlags, instance: InstanceFlags, ray: u32, front: bool) -> bool {
     let side = if front { ray_flags::CULL_FRONT_FACING_TRIANGLES } else { ray_flags::CULL_BACK_FACING_TRIANGLES };
     ray & side != 0
-        && !geometry.disable_triangle_face_culling
+        && !geometry.contains(GeometryFlags::DISABLE_TRIANGLE_FACE_CULLING)
         && !instance.contains(InstanceFlags::DISABLE_TRIANGLE_FACE_CULLING)
 }

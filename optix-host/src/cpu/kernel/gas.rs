@@ -2,28 +2,12 @@
 
 use super::aabb::Aabb;
 use super::bvh::Bvh;
-use super::flags::GeometryFlags;
 use super::primitive::Primitives;
-use super::primitive::custom::{AabbInput, Boxes};
-use super::primitive::triangle::{TriangleInput, Triangles};
 use crate::error::BuildError;
+use crate::geometry::{BuildInput, GasInputs, GasLimits, GeometryFlags, PrimitiveArray};
 use crate::limits::{MAX_PRIMITIVES, MAX_RECORDS_OF_GAS};
 
-/// How the primitives of a build input map to its SBT records (guide 5.1).
-#[derive(Clone, Debug, PartialEq)]
-pub struct SbtMapping {
-    /// One entry per record; at least one.
-    pub flags: Vec<GeometryFlags>,
-    /// One record index per primitive; needed with more than one record.
-    pub per_primitive: Option<Vec<u32>>,
-}
-
-impl SbtMapping {
-    /// One record for all primitives.
-    pub fn single(flags: GeometryFlags) -> Self {
-        Self { flags: vec![flags], per_primitive: None }
-    }
-}
+const LIMITS: GasLimits = GasLimits { primitives: MAX_PRIMITIVES, records: MAX_RECORDS_OF_GAS };
 
 /// What a build input contributes.
 #[derive(Clone, Copy, Debug)]
@@ -47,26 +31,13 @@ pub struct Gas {
 }
 
 impl Gas {
-    /// Builds over triangles. No inputs, and inputs without triangles, are legal; rays then miss.
-    pub fn triangles(inputs: Vec<TriangleInput>) -> Result<Self, BuildError> {
-        let mut table = Table::default();
-        for (i, input) in inputs.iter().enumerate() {
-            input.check(i)?;
-            table.add(i, input.len(), &input.sbt, input.primitive_index_offset)?;
-        }
-        let (bvh, triangles) = Triangles::build(inputs);
-        Ok(table.finish(bvh, Primitives::Triangles(triangles)))
-    }
-
-    /// Builds over custom primitives. No inputs, and inputs without boxes, are legal; rays then miss.
-    pub fn custom(inputs: Vec<AabbInput>) -> Result<Self, BuildError> {
-        let mut table = Table::default();
-        for (i, input) in inputs.iter().enumerate() {
-            input.check(i)?;
-            table.add(i, input.boxes.len(), &input.sbt, input.primitive_index_offset)?;
-        }
-        let (bvh, boxes) = Boxes::build(inputs);
-        Ok(table.finish(bvh, Primitives::Custom(boxes)))
+    /// Builds over primitives of one kind. No inputs, and inputs without primitives, are legal; rays then miss.
+    pub fn new(inputs: impl Into<GasInputs>) -> Result<Self, BuildError> {
+        let inputs = inputs.into();
+        inputs.check(LIMITS)?;
+        let table = Table::of(&inputs);
+        let (bvh, primitives) = Primitives::build(inputs);
+        Ok(table.finish(bvh, primitives))
     }
 
     /// The smallest box around all active primitives.
@@ -163,43 +134,29 @@ struct Table {
 }
 
 impl Table {
-    fn add(&mut self, input: usize, primitives: usize, sbt: &SbtMapping, offset: u32) -> Result<(), BuildError> {
-        let records = sbt.flags.len();
-        if records == 0 {
-            return Err(BuildError::NoSbtRecord { input });
+    fn of(inputs: &GasInputs) -> Self {
+        let mut table = Self::default();
+        match inputs {
+            GasInputs::Triangles(inputs) => table.add(inputs),
+            GasInputs::Custom(inputs) => table.add(inputs),
         }
-        let (all_records, all_primitives) = (self.flags.len() + records, self.records.len() + primitives);
-        if all_records > MAX_RECORDS_OF_GAS {
-            return Err(BuildError::TooMany { what: "SBT records", count: all_records, limit: MAX_RECORDS_OF_GAS });
-        }
-        if all_primitives > MAX_PRIMITIVES {
-            return Err(BuildError::TooMany { what: "primitives", count: all_primitives, limit: MAX_PRIMITIVES });
-        }
-        if offset as usize + primitives > 1 << 32 {
-            return Err(BuildError::PrimitiveIndexOverflow { input, offset, primitives });
-        }
-        let first_record = self.flags.len() as u32;
-        self.parts.push(Part {
-            first_primitive: self.records.len() as u32,
-            first_record,
-            primitive_index_offset: offset,
-        });
-        match &sbt.per_primitive {
-            None if records > 1 => return Err(BuildError::NoPerPrimitiveIndex { input, records }),
-            None => self.records.resize(all_primitives, first_record),
-            Some(indices) if indices.len() != primitives => {
-                return Err(BuildError::PerPrimitiveLength { input, primitives, indices: indices.len() });
+        table
+    }
+
+    fn add<A: PrimitiveArray>(&mut self, inputs: &[BuildInput<A>]) {
+        for input in inputs {
+            let (first_primitive, first_record) = (self.records.len() as u32, self.flags.len() as u32);
+            self.parts.push(Part {
+                first_primitive,
+                first_record,
+                primitive_index_offset: input.primitive_index_offset(),
+            });
+            match input.records().of_primitive() {
+                None => self.records.resize(self.records.len() + input.primitives().len(), first_record),
+                Some(records) => self.records.extend(records.iter().map(|record| first_record + record)),
             }
-            Some(indices) => {
-                if let Some(primitive) = indices.iter().position(|&i| i as usize >= records) {
-                    let index = indices[primitive];
-                    return Err(BuildError::SbtIndexOutOfRange { input, primitive, index, records });
-                }
-                self.records.extend(indices.iter().map(|i| first_record + i));
-            }
+            self.flags.extend(input.records().flags());
         }
-        self.flags.extend(&sbt.flags);
-        Ok(())
     }
 
     fn finish(mut self, bvh: Bvh, primitives: Primitives) -> Gas {

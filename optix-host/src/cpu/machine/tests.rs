@@ -2,7 +2,8 @@
 //! hand, on the frame.
 
 use super::*;
-use crate::cpu::kernel::{Aabb, AabbInput, Accel, Gas, GeometryFlags, Ias, Instance, SbtMapping, TriangleInput};
+use crate::cpu::kernel::{Accel, Gas, Ias, Instance};
+use crate::geometry::{Aabb, BuildInput, CustomPrimitiveArray, GeometryFlags, Records, TriangleArray};
 use crate::sbt::HitProgram;
 use glam::Vec3;
 use optix_device_rs::callable::Direct;
@@ -219,13 +220,13 @@ fn run(custom: bool, checked: bool, script: Script) -> Option<String> {
 }
 
 fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned) -> Outcome {
-    let sbt = SbtMapping::single(GeometryFlags::default());
+    let records = Records::one(GeometryFlags::NONE);
     let gas = if custom {
-        let boxes = vec![Aabb::new([0.0; 3], [1.0; 3])];
-        Gas::custom(vec![AabbInput { boxes, sbt, primitive_index_offset: 0 }])
+        let array = CustomPrimitiveArray::new(vec![Aabb { min: Vec3::ZERO, max: Vec3::ONE }]).unwrap();
+        Gas::new(vec![BuildInput::new(array, records).unwrap()])
     } else {
-        let vertices = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        Gas::triangles(vec![TriangleInput { vertices, indices: None, sbt, primitive_index_offset: 0 }])
+        let array = TriangleArray::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], None).unwrap();
+        Gas::new(vec![BuildInput::new(array, records).unwrap()])
     };
     let mut accel = Accel::from(gas.unwrap());
     if script.scale != 1.0 {

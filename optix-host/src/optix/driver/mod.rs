@@ -40,10 +40,7 @@ use std::any::Any;
 use std::sync::Arc;
 
 pub use crate::error::{CudaFailure, DriverError as Error, LogMessage, OptixFailure};
-pub use accel::{
-    AabbInput, Accel, AccelOptions, GeometryFlags, Indices, Instance, Motion, Preference, Records, SbtIndices, Source,
-    Traversable, TriangleInput,
-};
+pub use accel::{Accel, AccelOptions, Instance, Motion, Preference, Traversable};
 pub use buffer::DeviceBuffer;
 pub use context::{Context, ContextOptions, DiskCache};
 pub use cuda::{DeviceInfo, devices, ordinal_of};

@@ -9,6 +9,7 @@ use std::path::Path;
 const LAYERS: &[&[&str]] = &[
     &["limits", "affine"],
     &["error"],
+    &["geometry"],
     &["scene"],
     &["plan"],
     &["sbt"],

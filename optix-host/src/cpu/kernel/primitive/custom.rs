@@ -6,54 +6,37 @@ use crate::cpu::kernel::bvh::Bvh;
 use crate::cpu::kernel::candidate::Sink;
 use crate::cpu::kernel::collapse::SINGLE_LEAF;
 use crate::cpu::kernel::flags::Verdict;
-use crate::cpu::kernel::gas::SbtMapping;
 use crate::cpu::kernel::program::Reporter;
 use crate::cpu::kernel::simd::Simd;
 use crate::cpu::kernel::trace::AtGas;
-use crate::error::BuildError;
-
-/// A custom-primitive build input; an inverted box makes its primitive inactive.
-#[derive(Clone, Debug)]
-pub struct AabbInput {
-    pub boxes: Vec<Aabb>,
-    pub sbt: SbtMapping,
-    /// Added to primitive indices when they are reported.
-    pub primitive_index_offset: u32,
-}
-
-impl AabbInput {
-    pub(in super::super) fn check(&self, input: usize) -> Result<(), BuildError> {
-        let Some(primitive) = self.boxes.iter().position(|b| !b.is_finite()) else { return Ok(()) };
-        let Aabb { min, max } = self.boxes[primitive];
-        Err(BuildError::NonFiniteBox { input, primitive, min, max })
-    }
-}
+use crate::geometry::{BuildInput, CustomPrimitiveArray};
 
 /// The boxes of a structure. A leaf's payload is the primitive, counted over all inputs.
 #[derive(Debug)]
-pub struct Boxes {
-    inputs: Vec<AabbInput>,
+pub struct Custom {
+    inputs: Vec<BuildInput<CustomPrimitiveArray>>,
 }
 
-impl Boxes {
-    /// Takes boxes, which were checked.
-    pub fn build(inputs: Vec<AabbInput>) -> (Bvh, Self) {
-        let boxes: Vec<Aabb> = inputs.iter().flat_map(|input| input.boxes.iter().copied()).collect();
+impl Custom {
+    /// A hierarchy over the boxes, each in a leaf of its own. Inverted ones are left out.
+    pub fn build(inputs: Vec<BuildInput<CustomPrimitiveArray>>) -> (Bvh, Self) {
+        let boxes: Vec<Aabb> =
+            inputs.iter().flat_map(|input| input.primitives().bounds().iter().map(Aabb::from)).collect();
         (Bvh::build(&boxes, SINGLE_LEAF, |primitives| primitives[0]), Self { inputs })
     }
 
     /// A box of an input.
     pub fn get(&self, input: usize, local: usize) -> Option<Aabb> {
-        self.inputs[input].boxes.get(local).copied()
+        self.inputs[input].primitives().bounds().get(local).map(Aabb::from)
     }
 
     /// Heap bytes.
     pub fn memory_bytes(&self) -> usize {
-        self.inputs.iter().map(|input| size_of_val(&input.boxes[..])).sum()
+        self.inputs.iter().map(|input| size_of_val(input.primitives().bounds())).sum()
     }
 }
 
-impl Leaves for Boxes {
+impl Leaves for Custom {
     /// Has the intersection program look at a primitive.
     #[inline(always)]
     fn visit<S: Simd>(&self, _: S, ray: &mut AtGas<'_, '_>, primitive: u32, limit: f32) -> f32 {

@@ -7,24 +7,40 @@
 pub mod custom;
 pub mod triangle;
 
+use super::bvh::Bvh;
 use super::simd::Simd;
 use super::trace::AtGas;
-use custom::Boxes;
+use crate::geometry::GasInputs;
+use custom::Custom;
 use triangle::Triangles;
 
 /// The primitives of a structure, of one kind.
 #[derive(Debug)]
 pub enum Primitives {
     Triangles(Triangles),
-    Custom(Boxes),
+    Custom(Custom),
 }
 
 impl Primitives {
+    /// Packs primitives, with a hierarchy over them.
+    pub fn build(inputs: GasInputs) -> (Bvh, Self) {
+        match inputs {
+            GasInputs::Triangles(inputs) => {
+                let (bvh, triangles) = Triangles::build(inputs);
+                (bvh, Self::Triangles(triangles))
+            }
+            GasInputs::Custom(inputs) => {
+                let (bvh, custom) = Custom::build(inputs);
+                (bvh, Self::Custom(custom))
+            }
+        }
+    }
+
     /// Heap bytes, with those of the inputs, which are kept for the accessors.
     pub fn memory_bytes(&self) -> usize {
         match self {
             Self::Triangles(triangles) => triangles.memory_bytes(),
-            Self::Custom(boxes) => boxes.memory_bytes(),
+            Self::Custom(custom) => custom.memory_bytes(),
         }
     }
 }

@@ -32,11 +32,10 @@ fn any_hit_decision_table() {
     for geometry in [ON, OFF] {
         let gas = shared(stack(&[0.0], geometry));
         let boxes = vec![Aabb::new([0.0; 3], [1.0; 3])];
-        let custom = AabbInput { boxes, sbt: SbtMapping::single(geometry), primitive_index_offset: 0 };
-        let custom = shared(Gas::custom(vec![custom]).unwrap());
+        let custom = shared(Gas::new(vec![custom(&boxes, geometry)]).unwrap());
         for flags in instances {
             for ray in rays {
-                let verdict = expected(geometry.disable_anyhit, flags, ray);
+                let verdict = expected(geometry == OFF, flags, ray);
                 let name = format!("{geometry:?} {flags:?} ray {ray}");
                 assert_eq!(any_hit_verdict(geometry, flags, ray), verdict, "{name}");
                 for child in [&gas, &custom] {
@@ -84,7 +83,10 @@ fn faces_flips_and_culling() {
                         (ray_flags::CULL_BACK_FACING_TRIANGLES, Some(false)),
                         (ray_flags::CULL_FRONT_FACING_TRIANGLES, Some(true)),
                     ] {
-                        let flags = GeometryFlags { disable_triangle_face_culling: by_geometry, ..OFF };
+                        let mut flags = OFF;
+                        if by_geometry {
+                            flags = flags | GeometryFlags::DISABLE_TRIANGLE_FACE_CULLING;
+                        }
                         let mut of_instance = InstanceFlags::NONE;
                         if flip {
                             of_instance = of_instance | InstanceFlags::FLIP_TRIANGLE_FACING;
@@ -214,12 +216,8 @@ fn ties_go_to_the_first_path_and_primitive() {
 
 #[test]
 fn reports() {
-    let input = AabbInput {
-        boxes: vec![Aabb::new([0.0; 3], [1.0; 3])],
-        sbt: SbtMapping::single(ON),
-        primitive_index_offset: 5,
-    };
-    let accel = Accel::from(Gas::custom(vec![input]).unwrap());
+    let input = custom(&[Aabb::new([0.0; 3], [1.0; 3])], ON).with_primitive_index_offset(5);
+    let accel = Accel::from(Gas::new(vec![input.unwrap()]).unwrap());
     let run = |programs: &mut Scripted, flags| {
         let query = RayQuery { tmin: 1.0, tmax: 20.0, flags, ..down() };
         trace(Some(&accel), &query, programs).map(|hit| (hit.t, hit.hit_kind, hit.primitive_index, hit.attributes[0]))

@@ -83,8 +83,7 @@ fn boxes_without_end() {
             let of = |far: f32, which: usize| {
                 let plane = Aabb::new([-far, -2.0, -far], [far, -1.0, far]);
                 let all = [&boxes[..], &[plane]].concat();
-                let input = AabbInput { boxes: all.clone(), sbt: SbtMapping::single(OFF), primitive_index_offset: 0 };
-                nearest(&placed(Gas::custom(vec![input]).unwrap().into())[which], &ray, Solid(&all))
+                nearest(&placed(Gas::new(vec![custom(&all, OFF)]).unwrap().into())[which], &ray, Solid(&all))
             };
             for which in 0..6 {
                 let expected = of(1e30, which);
@@ -109,11 +108,11 @@ fn triangles_without_end() {
             .collect();
         let mesh = |far: Option<f32>| {
             let mut inputs = vec![triangles(near.clone(), None, OFF)];
-            inputs.extend(far.map(|far| TriangleInput {
-                primitive_index_offset: 1000,
-                ..triangles(corners(far).to_vec(), Some(PLANE.to_vec()), OFF)
+            inputs.extend(far.map(|far| {
+                let plane = triangles(corners(far).to_vec(), Some(PLANE.to_vec()), OFF);
+                plane.with_primitive_index_offset(1000).unwrap()
             }));
-            placed(Gas::triangles(inputs).unwrap().into())
+            placed(Gas::new(inputs).unwrap().into())
         };
         let alone = mesh(None);
         let planes = SIZES.map(|far| mesh(Some(far)));
@@ -210,11 +209,8 @@ fn rays_that_are_none_in_an_instance() {
 
 #[test]
 fn empty_boxes_stay_empty() {
-    let gas = Gas::custom(vec![AabbInput {
-        boxes: vec![Aabb::new([1.0; 3], [-1.0; 3]), Aabb::new([f32::MAX; 3], [f32::MIN; 3])],
-        sbt: SbtMapping::single(OFF),
-        primitive_index_offset: 0,
-    }]);
+    let boxes = [Aabb::new([1.0; 3], [-1.0; 3]), Aabb::new([f32::MAX; 3], [f32::MIN; 3])];
+    let gas = Gas::new(vec![custom(&boxes, OFF)]);
     for accel in placed(gas.unwrap().into()) {
         let mut programs = Scripted::new(AnyHit::Accept);
         assert!(trace(Some(&accel), &down(), &mut programs).is_none());

@@ -20,18 +20,15 @@ fn row(records: &[usize], stride: u32) -> Gas {
                     [[left, 0., 0.], [left + 1., 0., 0.], [left, 1., 0.]]
                 })
                 .collect();
-            TriangleInput {
-                vertices,
-                indices: None,
-                sbt: SbtMapping {
-                    flags: vec![OFF; count],
-                    per_primitive: (count > 1).then(|| (0..count as u32).collect()),
-                },
-                primitive_index_offset: stride * i as u32,
-            }
+            let records = match count {
+                1 => Records::one(OFF),
+                _ => Records::indexed(vec![OFF; count], (0..count as u32).collect()),
+            };
+            let input = BuildInput::new(TriangleArray::new(vertices, None).unwrap(), records).unwrap();
+            input.with_primitive_index_offset(stride * i as u32).unwrap()
         })
-        .collect();
-    Gas::triangles(inputs).unwrap()
+        .collect::<Vec<_>>();
+    Gas::new(inputs).unwrap()
 }
 
 fn at(x: f32) -> RayQuery {
@@ -140,13 +137,8 @@ fn programs_see_the_object_ray() {
             assert_eq!((reporter.tmax(), reporter.is_terminated()), (8.0, false));
         }
     }
-    let input = AabbInput {
-        boxes: vec![Aabb::new([0.0; 3], [1.0; 3])],
-        sbt: SbtMapping::single(ON),
-        primitive_index_offset: 0,
-    };
     let transform = [2., 0., 0., 10., 0., 2., 0., 20., 0., 0., 2., 30.];
-    let child = shared(Gas::custom(vec![input]).unwrap());
+    let child = shared(Gas::new(vec![custom(&[Aabb::new([0.0; 3], [1.0; 3])], ON)]).unwrap());
     let accel = Accel::from(Ias::new(vec![Instance { transform, ..Instance::new(child) }]).unwrap());
     let mut look = Look(Vec::new());
     let query = RayQuery::new([11.0, 21.0, 40.0], [0.0, 0.0, -1.0]);
@@ -175,7 +167,7 @@ fn many_instances_equal_their_flattened_mesh() {
     // Powers of two and integer moves keep all coordinates exact, so t is the same bit for bit.
     let mut random = Random(3);
     let shape: Vec<[f32; 3]> = (0..60).map(|_| random.sphere().map(|x| (x * 64.0).round() as f32 / 64.0)).collect();
-    let child = shared(Gas::triangles(vec![triangles(shape.clone(), None, OFF)]).unwrap());
+    let child = shared(Gas::new(vec![triangles(shape.clone(), None, OFF)]).unwrap());
     let (mut instances, mut flat) = (Vec::new(), Vec::new());
     for _ in 0..50 {
         let [x, y, z] = random.sphere().map(|x| (x * 8.0).round() as f32);
@@ -184,7 +176,7 @@ fn many_instances_equal_their_flattened_mesh() {
         instances.push(Instance { transform, ..Instance::new(child.clone()) });
         flat.extend(shape.iter().map(|v| [s * v[0] + x, s * v[2] + y, -s * v[1] + z]));
     }
-    let flat = Accel::from(Gas::triangles(vec![triangles(flat, None, OFF)]).unwrap());
+    let flat = Accel::from(Gas::new(vec![triangles(flat, None, OFF)]).unwrap());
     let accel = Accel::from(Ias::new(instances).unwrap());
     let mut hits = 0;
     for _ in 0..20_000 {

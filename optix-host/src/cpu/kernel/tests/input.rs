@@ -4,15 +4,14 @@ use super::*;
 
 #[test]
 fn nothing_is_legal() {
-    let boxes = AabbInput { boxes: vec![], sbt: SbtMapping::single(OFF), primitive_index_offset: 0 };
-    let inverted = AabbInput { boxes: vec![Aabb::new([1.0; 3], [0.0; 3])], ..boxes.clone() };
+    let inverted = Aabb::new([1.0; 3], [0.0; 3]);
     for gas in [
-        Gas::triangles(vec![]).unwrap(),
-        Gas::triangles(vec![triangles(vec![], None, OFF)]).unwrap(),
-        Gas::triangles(vec![triangles(vec![[0.0; 3]], Some(vec![]), OFF)]).unwrap(),
-        Gas::custom(vec![]).unwrap(),
-        Gas::custom(vec![boxes]).unwrap(),
-        Gas::custom(vec![inverted]).unwrap(),
+        Gas::new(Vec::<BuildInput<TriangleArray>>::new()).unwrap(),
+        Gas::new(vec![triangles(vec![], None, OFF)]).unwrap(),
+        Gas::new(vec![triangles(vec![[0.0; 3]], Some(vec![]), OFF)]).unwrap(),
+        Gas::new(Vec::<BuildInput<CustomPrimitiveArray>>::new()).unwrap(),
+        Gas::new(vec![custom(&[], OFF)]).unwrap(),
+        Gas::new(vec![custom(&[inverted], OFF)]).unwrap(),
     ] {
         let gas = shared(gas);
         assert!(gas.bounds().is_empty());
@@ -24,49 +23,15 @@ fn nothing_is_legal() {
 }
 
 #[test]
-fn wrong_geometry_is_named() {
-    let good = || triangles(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], Some(vec![[0, 1, 2]]), OFF);
-    let sbt = |records: usize, per_primitive| SbtMapping { flags: vec![OFF; records], per_primitive };
-    let cases = [
-        (
-            TriangleInput { indices: Some(vec![[0, 1, 2], [2, 3, 1]]), ..good() },
-            BuildError::IndexOutOfRange { input: 1, triangle: 1, corner: 1, index: 3, vertices: 3 },
-        ),
-        (
-            TriangleInput { vertices: vec![[0.0; 3]; 4], indices: None, ..good() },
-            BuildError::IncompleteTriangle { input: 1, vertices: 4 },
-        ),
-        (
-            TriangleInput { vertices: vec![[0.0; 3], [0.0, f32::INFINITY, 0.0], [0.0; 3]], ..good() },
-            BuildError::NonFiniteVertex { input: 1, vertex: 1, position: [0.0, f32::INFINITY, 0.0] },
-        ),
-        (TriangleInput { sbt: sbt(0, None), ..good() }, BuildError::NoSbtRecord { input: 1 }),
-        (TriangleInput { sbt: sbt(2, None), ..good() }, BuildError::NoPerPrimitiveIndex { input: 1, records: 2 }),
-        (
-            TriangleInput { sbt: sbt(2, Some(vec![0, 1])), ..good() },
-            BuildError::PerPrimitiveLength { input: 1, primitives: 1, indices: 2 },
-        ),
-        (
-            TriangleInput { sbt: sbt(2, Some(vec![2])), ..good() },
-            BuildError::SbtIndexOutOfRange { input: 1, primitive: 0, index: 2, records: 2 },
-        ),
-        (
-            TriangleInput { sbt: sbt((1 << 24) + 1, Some(vec![2])), ..good() },
-            BuildError::TooMany { what: "SBT records", count: (1 << 24) + 2, limit: 1 << 24 },
-        ),
-    ];
-    for (input, error) in cases {
-        assert_eq!(Gas::triangles(vec![good(), input]).unwrap_err(), error);
-    }
-    let message =
-        Gas::triangles(vec![TriangleInput { indices: Some(vec![[0, 1, 9]]), ..good() }]).unwrap_err().to_string();
-    assert!(message.contains("corner 2 of triangle 0 has vertex index 9") && message.contains("3 vertices (0 to 2)"));
-
-    let offset = TriangleInput { primitive_index_offset: u32::MAX, ..good() };
-    assert!(Gas::triangles(vec![offset]).is_ok(), "the last index still fits");
-    let boxes = vec![Aabb::new([0.0; 3], [1.0; 3]), Aabb::new([0.0; 3], [f32::NAN; 3])];
-    let input = AabbInput { boxes, sbt: SbtMapping::single(OFF), primitive_index_offset: 0 };
-    assert!(matches!(Gas::custom(vec![input]), Err(BuildError::NonFiniteBox { input: 0, primitive: 1, .. })));
+fn too_many_records_are_refused() {
+    let input = |records: usize| {
+        let corners = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let records = Records::indexed(vec![OFF; records], vec![0]);
+        BuildInput::new(TriangleArray::new(corners, None).unwrap(), records).unwrap()
+    };
+    let error = BuildError::TooMany { what: "hit-group records", count: (1 << 24) + 2, limit: 1 << 24 };
+    assert_eq!(Gas::new(vec![input(1), input((1 << 24) + 1)]).unwrap_err(), error);
+    assert!(Gas::new(vec![input(1), input((1 << 24) - 1)]).is_ok());
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod watertight;
 use std::sync::Arc;
 
 use super::*;
+use crate::geometry::{self, BuildInput, CustomPrimitiveArray, GeometryFlags, Records, TriangleArray};
 use crate::scene::InstanceFlags;
 
 /// Programs that take everything.
@@ -55,22 +56,30 @@ impl Programs for Scripted {
 }
 
 /// Any-hit off, on.
-pub const OFF: GeometryFlags =
-    GeometryFlags { disable_anyhit: true, require_single_anyhit_call: false, disable_triangle_face_culling: false };
-pub const ON: GeometryFlags = GeometryFlags { disable_anyhit: false, ..OFF };
+pub const OFF: GeometryFlags = GeometryFlags::DISABLE_ANYHIT;
+pub const ON: GeometryFlags = GeometryFlags::NONE;
 
-pub fn triangles(vertices: Vec<[f32; 3]>, indices: Option<Vec<[u32; 3]>>, flags: GeometryFlags) -> TriangleInput {
-    TriangleInput { vertices, indices, sbt: SbtMapping::single(flags), primitive_index_offset: 0 }
+pub fn triangles(
+    vertices: Vec<[f32; 3]>,
+    indices: Option<Vec<[u32; 3]>>,
+    flags: GeometryFlags,
+) -> BuildInput<TriangleArray> {
+    BuildInput::new(TriangleArray::new(vertices, indices).unwrap(), Records::one(flags)).unwrap()
+}
+
+pub fn custom(boxes: &[Aabb], flags: GeometryFlags) -> BuildInput<CustomPrimitiveArray> {
+    let bounds = boxes.iter().map(|b| geometry::Aabb { min: b.min.into(), max: b.max.into() });
+    BuildInput::new(CustomPrimitiveArray::new(bounds.collect()).unwrap(), Records::one(flags)).unwrap()
 }
 
 pub fn mesh(vertices: &[[f32; 3]], indices: &[[u32; 3]]) -> Accel {
-    Gas::triangles(vec![triangles(vertices.to_vec(), Some(indices.to_vec()), OFF)]).unwrap().into()
+    Gas::new(vec![triangles(vertices.to_vec(), Some(indices.to_vec()), OFF)]).unwrap().into()
 }
 
 /// Right triangles in planes `z = depth`, front towards `+z`, that rays down the `z` axis through (0.25, 0.25) hit.
 pub fn stack(depths: &[f32], flags: GeometryFlags) -> Gas {
     let vertices = depths.iter().flat_map(|&z| [[0., 0., z], [1., 0., z], [0., 1., z]]).collect();
-    Gas::triangles(vec![triangles(vertices, None, flags)]).unwrap()
+    Gas::new(vec![triangles(vertices, None, flags)]).unwrap()
 }
 
 /// From `z = 10` downwards, so that `t = 10 - z`.

@@ -336,7 +336,7 @@ fn exponentially_growing_triangles_do_not_overflow_the_stack() {
         vertices.extend([[s, 0.0, 0.0], [s, s, 0.0], [s, 0.0, s]]);
     }
     let count = vertices.len() / 3;
-    let accel = Accel::from(Gas::triangles(vec![triangles(vertices, None, ON)]).unwrap());
+    let accel = Accel::from(Gas::new(vec![triangles(vertices, None, ON)]).unwrap());
     let mut programs = Scripted::new(AnyHit::Ignore);
     let query = RayQuery::new([0.0; 3], [1.0, 0.25, 0.25]);
     assert!(trace(Some(&accel), &query, &mut programs).is_none());
@@ -352,7 +352,7 @@ fn coincident_and_collinear_triangles_build_quickly() {
     let line = (0..count).flat_map(|i| [[i as f32, 0.0, 0.0]; 3]).collect();
     for (vertices, hits) in [(equal, count), (points, 0), (line, 0)] {
         let begin = std::time::Instant::now();
-        let accel = Accel::from(Gas::triangles(vec![triangles(vertices, None, ON)]).unwrap());
+        let accel = Accel::from(Gas::new(vec![triangles(vertices, None, ON)]).unwrap());
         assert!(begin.elapsed().as_secs() < 20, "{:?}", begin.elapsed());
         let mut programs = Scripted::new(AnyHit::Ignore);
         assert!(trace(Some(&accel), &down(), &mut programs).is_none());

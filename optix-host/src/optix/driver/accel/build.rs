@@ -43,6 +43,22 @@ impl RawInput {
     }
 }
 
+#[cfg(test)]
+impl RawInput {
+    pub(super) fn kind(&self) -> Type {
+        self.input.kind
+    }
+    pub(super) fn union(&self) -> &Union {
+        &self.input.input
+    }
+    pub(super) fn buffers(&self) -> &[u64] {
+        &self._buffers
+    }
+    pub(super) fn flags(&self) -> &[u32] {
+        &self._flags
+    }
+}
+
 /// Builds, compacts if asked to and if it saves memory, and waits.
 ///
 /// # Safety

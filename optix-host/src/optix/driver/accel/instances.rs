@@ -4,7 +4,7 @@ use super::super::context::Context;
 use super::super::limits::Limits;
 use super::super::sys;
 use super::build::{RawInput, build};
-use super::source::{Source, Staging};
+use super::staging::{Staging, Upload};
 use super::{Accel, AccelOptions, Traversable};
 use crate::affine::Affine;
 use crate::error::DriverError as Error;
@@ -81,7 +81,7 @@ impl Accel {
         let children = instances.iter().map(|instance| instance.traversable.clone()).collect();
         let mut staging = Staging::new(context);
         // SAFETY: `staging` is declared after `raw`, so it is dropped, and waits for the copy, before `raw` goes.
-        let address = unsafe { staging.place(&Source::host(&raw))? };
+        let address = unsafe { staging.elements(&raw)? };
         let input = RawInput::instances(sys::OptixBuildInputInstanceArray {
             instances: address,
             // Checked against the limit, which has 32 bits.

@@ -1,12 +1,12 @@
 //! Acceleration structures (guide 5).
 
-mod aabbs;
 mod build;
+mod custom;
 mod gas;
 mod instances;
 mod options;
 mod records;
-mod source;
+mod staging;
 mod triangles;
 
 use std::sync::Arc;
@@ -15,12 +15,8 @@ use super::buffer::DeviceBuffer;
 use super::context::Context;
 use super::transform::Transform;
 
-pub use aabbs::AabbInput;
 pub use instances::Instance;
 pub use options::{AccelOptions, Motion, Preference};
-pub use records::{GeometryFlags, Records, SbtIndices};
-pub use source::Source;
-pub use triangles::{Indices, TriangleInput};
 
 /// A geometry or instance acceleration structure. Cheap to clone; keeps its memory and its children alive.
 #[derive(Clone, Debug)]

@@ -63,11 +63,6 @@ impl Motion {
 }
 
 impl AccelOptions {
-    /// Buffers an input must have: one a motion key, or one.
-    pub(super) fn keys(&self) -> usize {
-        self.motion.map_or(1, |motion| motion.keys.into())
-    }
-
     pub(in super::super) fn flags(&self) -> u32 {
         use OptixBuildFlags as Flags;
         let preference = match self.preference {

@@ -1,163 +1,87 @@
-//! Triangles (guide 5.1).
+//! Triangles as OptiX takes them (guide 5.1).
 
-use super::super::context::Context;
 use super::super::sys;
 use super::build::RawInput;
-use super::gas::{Input, check_keys, gas, place_keys, to_u32};
-use super::records::{Records, largest};
-use super::source::{Source, Staging};
-use super::{Accel, AccelOptions};
+use super::gas::{ToInput, count};
+use super::records::RawRecords;
+use super::staging::Upload;
 use crate::error::DriverError as Error;
+use crate::geometry::{BuildInput, PrimitiveArray, TriangleArray};
 
-/// Vertex indices, three a triangle.
-#[derive(Clone, Copy, Debug)]
-pub enum Indices<'a> {
-    /// Of 2 bytes.
-    U16(Source<'a, [u16; 3]>),
-    /// Of 4 bytes.
-    U32(Source<'a, [u32; 3]>),
-}
-
-/// Triangles.
-#[derive(Clone, Debug)]
-pub struct TriangleInput<'a> {
-    /// Positions, one list a motion key or one list. Each list has the same length.
-    pub vertices: Vec<Source<'a, [f32; 3]>>,
-    /// Without them, each three vertices are a triangle.
-    pub indices: Option<Indices<'a>>,
-    /// Row-major 3x4 matrix, applied to the vertices at build time.
-    pub pre_transform: Option<&'a [f32; 12]>,
-    /// The records.
-    pub records: Records<'a>,
-    /// Added to the primitive indices that programs see.
-    pub primitive_index_offset: u32,
-}
-
-impl Accel {
-    /// Builds a geometry acceleration structure of triangles, and returns when it is built.
-    ///
-    /// # Errors
-    /// [`Error::Invalid`] for data that break a rule of guide 5.1, [`Error::Optix`] or [`Error::Cuda`] otherwise.
-    pub fn triangles(context: &Context, inputs: &[TriangleInput<'_>], options: &AccelOptions) -> Result<Self, Error> {
-        gas(context, inputs, options)
-    }
-}
-
-impl Input for TriangleInput<'_> {
-    fn primitives(&self) -> Result<u32, Error> {
-        to_u32(match &self.indices {
-            Some(Indices::U16(indices)) => indices.len(),
-            Some(Indices::U32(indices)) => indices.len(),
-            None => self.vertex_count() / 3,
-        })
-    }
-
-    fn records(&self) -> &Records<'_> {
-        &self.records
-    }
-
-    fn check(&self, keys: usize) -> Result<(), Error> {
-        const WHAT: &str = "triangles";
-        check_keys(WHAT, &self.vertices, keys)?;
-        let vertices = self.vertex_count();
-        to_u32(vertices)?;
-        let largest = match &self.indices {
-            Some(Indices::U16(indices)) => largest(indices.on_host().map(<[_]>::as_flattened)),
-            Some(Indices::U32(indices)) => largest(indices.on_host().map(<[_]>::as_flattened)),
-            None if vertices.is_multiple_of(3) => None,
-            None => {
-                let problem = format!("{vertices} vertices without indices");
-                return Err(Error::invalid(WHAT, problem, "give three vertices a triangle, or indices"));
-            }
-        };
-        match largest {
-            Some(index) if index as usize >= vertices => {
-                let problem = format!("vertex index {index}, but there are {vertices} vertices");
-                Err(Error::invalid(WHAT, problem, "count the vertices from 0, for each build input"))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    unsafe fn place(&self, staging: &mut Staging<'_>) -> Result<RawInput, Error> {
+impl ToInput for TriangleArray {
+    unsafe fn to_input(input: &BuildInput<Self>, upload: &mut impl Upload) -> Result<RawInput, Error> {
+        let triangles = &**input.primitives();
         let mut array = sys::OptixBuildInputTriangleArray {
-            num_vertices: to_u32(self.vertex_count())?,
+            num_vertices: count(triangles.vertices().len())?,
             vertex_format: sys::OptixVertexFormat::FLOAT3,
             vertex_stride_in_bytes: size_of::<[f32; 3]>() as u32,
-            primitive_index_offset: self.primitive_index_offset,
+            primitive_index_offset: input.primitive_index_offset(),
             ..Default::default()
         };
-        if let Some(indices) = &self.indices {
-            let (format, stride) = match indices {
-                Indices::U16(_) => (sys::OptixIndicesFormat::UNSIGNED_SHORT3, size_of::<[u16; 3]>()),
-                Indices::U32(_) => (sys::OptixIndicesFormat::UNSIGNED_INT3, size_of::<[u32; 3]>()),
-            };
-            array.num_index_triplets = self.primitives()?;
-            (array.index_format, array.index_stride_in_bytes) = (format, stride as u32);
-            array.index_buffer = match indices {
-                // SAFETY: the caller promises the host data.
-                Indices::U16(indices) => unsafe { staging.place(indices)? },
-                // SAFETY: as above.
-                Indices::U32(indices) => unsafe { staging.place(indices)? },
-            };
+        if let Some(indices) = triangles.indices() {
+            array.num_index_triplets = count(triangles.len())?;
+            array.index_format = sys::OptixIndicesFormat::UNSIGNED_INT3;
+            array.index_stride_in_bytes = size_of::<[u32; 3]>() as u32;
+            // SAFETY: the caller promises the host data.
+            array.index_buffer = unsafe { upload.elements(indices)? };
         }
-        if let Some(matrix) = self.pre_transform {
-            array.transform_format = sys::OptixTransformFormat::MATRIX_FLOAT12;
-            // SAFETY: the caller promises the host data. The copy is aligned to 256 bytes, more than the 16 that are asked for.
-            array.pre_transform = unsafe { staging.place(&Source::host(matrix.as_slice()))? };
-        }
-        // SAFETY: the caller promises the host data.
-        let (sbt_buffer, sbt_size) = unsafe { self.records.place(staging)? };
-        array.num_sbt_records = to_u32(self.records.flags.len())?;
-        (array.sbt_index_offset_buffer, array.sbt_index_offset_size_in_bytes) = (sbt_buffer, sbt_size);
         // SAFETY: as above.
-        let vertices = unsafe { place_keys(staging, &self.vertices)? };
-        Ok(RawInput::triangles(array, vertices, self.records.raw_flags()))
-    }
-}
-
-impl TriangleInput<'_> {
-    fn vertex_count(&self) -> usize {
-        self.vertices.first().map_or(0, Source::len)
+        let records = unsafe { RawRecords::of(input.records(), upload)? };
+        array.num_sbt_records = records.count;
+        array.sbt_index_offset_buffer = records.indices;
+        array.sbt_index_offset_size_in_bytes = records.index_size;
+        // SAFETY: as above.
+        let vertices = unsafe { upload.elements(triangles.vertices())? };
+        Ok(RawInput::triangles(array, Box::new([vertices]), records.flags))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::records::GeometryFlags;
+    use super::super::staging::Remembered;
     use super::*;
+    use crate::geometry::{GeometryFlags, Records};
 
-    const TRIANGLE: [[f32; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    const CORNERS: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+    const INDICES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 3]];
 
-    fn input<'a>(vertices: &'a [[f32; 3]], indices: Option<&'a [[u32; 3]]>) -> TriangleInput<'a> {
-        TriangleInput {
-            vertices: vec![Source::host(vertices)],
-            indices: indices.map(|indices| Indices::U32(Source::host(indices))),
-            pre_transform: None,
-            records: Records::one(GeometryFlags::NONE),
-            primitive_index_offset: 0,
-        }
+    #[test]
+    fn an_indexed_mesh_with_two_records() {
+        let array = TriangleArray::new(CORNERS.to_vec(), Some(INDICES.to_vec())).unwrap();
+        let flags = vec![GeometryFlags::DISABLE_ANYHIT, GeometryFlags::NONE];
+        let input = BuildInput::new(array, Records::indexed(flags, vec![1, 0])).unwrap();
+        let input = input.with_primitive_index_offset(7).unwrap();
+        let mut memory = Remembered::default();
+        // SAFETY: nothing is copied later.
+        let raw = unsafe { TriangleArray::to_input(&input, &mut memory) }.unwrap();
+        assert_eq!(raw.kind(), sys::OptixBuildInputType::TRIANGLES);
+        assert_eq!(raw.flags(), [1, 0]);
+        // SAFETY: the member of its kind.
+        let array = unsafe { raw.union().triangle_array };
+        assert_eq!((array.num_vertices, array.vertex_format.0, array.vertex_stride_in_bytes), (4, 8481, 12));
+        assert_eq!((array.num_index_triplets, array.index_format.0, array.index_stride_in_bytes), (2, 8451, 12));
+        assert_eq!(array.num_sbt_records, 2);
+        let [size, stride] = [array.sbt_index_offset_size_in_bytes, array.sbt_index_offset_stride_in_bytes];
+        assert_eq!(([size, stride], array.primitive_index_offset), ([4, 0], 7));
+        assert_eq!((array.transform_format.0, array.pre_transform), (0, 0));
+        assert_eq!(memory.at::<[u32; 3]>(array.index_buffer), INDICES);
+        assert_eq!(memory.at::<u32>(array.sbt_index_offset_buffer), [1, 0]);
+        let [vertices] = raw.buffers() else { panic!("one motion key") };
+        assert_eq!(memory.at::<[f32; 3]>(*vertices), CORNERS);
+        assert_eq!((array.vertex_buffers, array.flags), (raw.buffers().as_ptr(), raw.flags().as_ptr()));
     }
 
     #[test]
-    fn vertex_indices_are_checked() {
-        assert!(input(&TRIANGLE, Some(&[[0, 1, 2], [2, 1, 0]])).check(1).is_ok());
-        let error = input(&TRIANGLE, Some(&[[0, 1, 3]])).check(1).unwrap_err();
-        assert!(error.to_string().contains("vertex index 3"), "{error}");
-        assert!(input(&TRIANGLE, None).check(1).is_ok());
-        assert!(input(&TRIANGLE[..2], None).check(1).is_err());
-        assert!(input(&[], None).check(1).is_ok());
-        assert!(input(&[], Some(&[[0, 0, 0]])).check(1).is_err());
-    }
-
-    #[test]
-    fn motion_keys_are_counted() {
-        let mut moving = input(&TRIANGLE, None);
-        assert!(moving.check(2).is_err());
-        moving.vertices.push(Source::host(&TRIANGLE));
-        assert!(moving.check(2).is_ok());
-        moving.vertices[1] = Source::host(&[]);
-        assert!(moving.check(2).is_err());
-        assert!(TriangleInput { vertices: vec![], ..input(&[], None) }.check(1).is_err());
+    fn triangles_without_indices_and_with_one_record() {
+        let array = TriangleArray::new(CORNERS[..3].to_vec(), None).unwrap();
+        let input = BuildInput::new(array, Records::one(GeometryFlags::DISABLE_ANYHIT)).unwrap();
+        // SAFETY: nothing is copied later.
+        let raw = unsafe { TriangleArray::to_input(&input, &mut Remembered::default()) }.unwrap();
+        // SAFETY: the member of its kind.
+        let array = unsafe { raw.union().triangle_array };
+        assert_eq!((array.num_vertices, array.num_index_triplets, array.index_format.0), (3, 0, 0));
+        assert_eq!((array.index_buffer, array.index_stride_in_bytes), (0, 0));
+        assert_eq!((array.num_sbt_records, array.sbt_index_offset_buffer), (1, 0));
+        assert_eq!(array.sbt_index_offset_size_in_bytes, 0);
     }
 }

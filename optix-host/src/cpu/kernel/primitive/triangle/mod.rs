@@ -8,65 +8,16 @@ use crate::cpu::kernel::bvh::{Bvh, WIDTH};
 use crate::cpu::kernel::candidate::Offer;
 use crate::cpu::kernel::collapse::Shape;
 use crate::cpu::kernel::flags::Verdict;
-use crate::cpu::kernel::gas::SbtMapping;
 use crate::cpu::kernel::ray::{SHRINK, ShearRay};
 use crate::cpu::kernel::simd::Simd;
 use crate::cpu::kernel::trace::AtGas;
-use crate::error::BuildError;
+use crate::geometry::{BuildInput, PrimitiveArray, TriangleArray};
 use glam::DVec3;
 use test::{Block, Sheared, TriangleHit};
 
 /// Hit kinds of triangles (`OptixHitKind`).
 pub const FRONT_FACE: u8 = 254;
 pub const BACK_FACE: u8 = 255;
-
-/// A triangle build input. The front of a triangle is the side from which its corners go counter-clockwise.
-#[derive(Clone, Debug)]
-pub struct TriangleInput {
-    pub vertices: Vec<[f32; 3]>,
-    /// Without it, every three vertices are a triangle.
-    pub indices: Option<Vec<[u32; 3]>>,
-    pub sbt: SbtMapping,
-    /// Added to primitive indices when they are reported.
-    pub primitive_index_offset: u32,
-}
-
-impl TriangleInput {
-    pub(in super::super) fn len(&self) -> usize {
-        self.indices.as_ref().map_or(self.vertices.len() / 3, Vec::len)
-    }
-
-    fn corners(&self, triangle: usize) -> [usize; 3] {
-        match &self.indices {
-            Some(indices) => indices[triangle].map(|i| i as usize),
-            None => std::array::from_fn(|corner| 3 * triangle + corner),
-        }
-    }
-
-    /// The corners of a triangle, counted without the offset.
-    ///
-    /// # Panics
-    /// If there is no such triangle, or it has an index of no vertex.
-    pub fn triangle(&self, triangle: usize) -> [[f32; 3]; 3] {
-        self.corners(triangle).map(|i| self.vertices[i])
-    }
-
-    pub(in super::super) fn check(&self, input: usize) -> Result<(), BuildError> {
-        let vertices = self.vertices.len();
-        if self.indices.is_none() && !vertices.is_multiple_of(3) {
-            return Err(BuildError::IncompleteTriangle { input, vertices });
-        }
-        for (triangle, indices) in self.indices.iter().flatten().enumerate() {
-            if let Some(corner) = indices.iter().position(|&i| i as usize >= vertices) {
-                return Err(BuildError::IndexOutOfRange { input, triangle, corner, index: indices[corner], vertices });
-            }
-        }
-        match self.vertices.iter().position(|v| !v.iter().all(|x| x.is_finite())) {
-            Some(vertex) => Err(BuildError::NonFiniteVertex { input, vertex, position: self.vertices[vertex] }),
-            None => Ok(()),
-        }
-    }
-}
 
 /// Bits of a leaf's payload that hold the block.
 const BLOCK_BITS: u32 = 28;
@@ -91,14 +42,16 @@ fn block_of(leaf: u32) -> (usize, u32) {
 #[derive(Debug)]
 pub struct Triangles {
     blocks: Vec<Block>,
-    inputs: Vec<TriangleInput>,
+    inputs: Vec<BuildInput<TriangleArray>>,
 }
 
 impl Triangles {
-    /// Packs triangles, which were checked.
-    pub fn build(inputs: Vec<TriangleInput>) -> (Bvh, Self) {
-        let triangles: Vec<[[f32; 3]; 3]> =
-            inputs.iter().flat_map(|input| (0..input.len()).map(|i| input.triangle(i))).collect();
+    /// Packs triangles in blocks, which are the leaves of a hierarchy.
+    pub fn build(inputs: Vec<BuildInput<TriangleArray>>) -> (Bvh, Self) {
+        let triangles: Vec<[[f32; 3]; 3]> = inputs
+            .iter()
+            .flat_map(|input| (0..input.primitives().len()).map(|i| input.primitives().triangle(i)))
+            .collect();
         let boxes: Vec<Aabb> = triangles.iter().map(|corners| Aabb::around(corners)).collect();
         let mut blocks = Vec::with_capacity(triangles.len() / 4);
         let bvh = if triangles.len() <= DIRECT_TRIANGLES {
@@ -117,8 +70,8 @@ impl Triangles {
 
     /// The corners of a triangle of an input: NaN for one without area.
     pub fn vertices(&self, input: usize, local: usize) -> Option<[[f32; 3]; 3]> {
-        let input = &self.inputs[input];
-        let corners = (local < input.len()).then(|| input.triangle(local))?;
+        let triangles = self.inputs[input].primitives();
+        let corners = (local < triangles.len()).then(|| triangles.triangle(local))?;
         Some(if has_area(&corners) { corners } else { [[f32::NAN; 3]; 3] })
     }
 
@@ -130,9 +83,11 @@ impl Triangles {
 
     /// Heap bytes.
     pub fn memory_bytes(&self) -> usize {
-        let input =
-            |i: &TriangleInput| size_of_val(&i.vertices[..]) + i.indices.as_ref().map_or(0, |x| size_of_val(&x[..]));
-        size_of_val(&self.blocks[..]) + self.inputs.iter().map(input).sum::<usize>()
+        let inputs = self.inputs.iter().map(|input| {
+            let triangles = input.primitives();
+            size_of_val(triangles.vertices()) + triangles.indices().map_or(0, size_of_val)
+        });
+        size_of_val(&self.blocks[..]) + inputs.sum::<usize>()
     }
 }
 
