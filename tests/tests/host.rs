@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Vec3};
 use optix_host::scene::{Accel, GeometryError, InstanceFlags};
-use optix_host::{BackendKind, Device, Error, Pipeline, Scene, TriangleMesh};
+use optix_host::{Aabb, BackendKind, CustomPrimitives, Device, Error, Pipeline, Scene, TriangleMesh};
 use optix_tests::devices;
 use optix_tests::probe::{PTX, Part, ProbeRay, Tracer, ray};
 use path_tracer::shaders::{AreaLight, Lambert, PathTracer};
@@ -33,7 +33,14 @@ fn bad_geometry_is_named() {
     let mut broken = TRIANGLE;
     broken[1].y = f32::NAN;
     says(scene.geometry(TriangleMesh::new(&broken)), &["vertex 1", "NaN"]);
+    let inverted = Aabb { min: Vec3::ONE, max: Vec3::ZERO };
+    says(scene.geometry(CustomPrimitives::new(&[inverted])), &["box 0", "min <= max"]);
     says(scene.gas::<optix_device_rs::attributes::Triangles>([]).build(), &["at least one geometry"]);
+    let (paint, triangle) =
+        (scene.material(Surface {}).unwrap(), scene.geometry(TriangleMesh::new(&TRIANGLE)).unwrap());
+    let [good, long, high] = [vec![0], vec![0, 0], vec![1]].map(|which| triangle.with_each(&[paint], which));
+    says(scene.gas([good, long]).build(), &["geometry 1", "1 primitives", "2 material numbers"]);
+    says(scene.gas([high]).build(), &["geometry 0", "primitive 0", "material number 1", "1 materials"]);
     says(scene.ias([]).build(), &["at least one instance"]);
 }
 
