@@ -32,7 +32,7 @@ pub use geometry::{Aabb, CustomPrimitives, TriangleMesh};
 pub use glam;
 pub use launch::Launch;
 pub use optix::OptixOptions;
-pub use optix_device_rs::host::{Buffer, Buffer2d, InstanceTable, MemoryError, TriangleTable, World};
+pub use optix_device_rs::host::{Buffer, Buffer2d, InstanceTable, MemoryError, Rule, TriangleTable, World};
 pub use optix_report as report;
 pub use pipeline::{Pipeline, PipelineBuilder};
 pub use scene::{Accel, Geometry, Instance, Material};

@@ -242,7 +242,7 @@ fn run(device: &Device, way: usize, catch: usize) -> Said {
         Err(error) => Some(error),
     };
     let failed = failed.map(|error| match error {
-        Error::Program { what, program, index } => format!("{program} {index:?} {what}"),
+        Error::Program { what, program, index, .. } => format!("{program} {index:?} {what}"),
         other => panic!("{other}"),
     });
     let complaints = device.take_complaints();

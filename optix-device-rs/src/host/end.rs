@@ -7,8 +7,8 @@
 //! destructor that runs while its program unwinds can't be ended again, since Rust ends the process where a destructor panics
 //! then; so its trace calls and calls run no program and give back zeros, as [`goes_on`] says.
 
-use super::ExceptionState;
 use super::reach::{self, Reach};
+use super::{ExceptionState, Rule};
 use core::any::Any;
 use core::cell::{Cell, RefCell};
 use core::ptr::NonNull;
@@ -23,8 +23,13 @@ use std::vec::Vec;
 pub enum End {
     /// By an exception, which the exception program is told of.
     Thrown(ExceptionState),
-    /// By a mistake of the program, in words: the launch fails.
-    Failed(String),
+    /// By a mistake of the program: the launch fails.
+    Failed {
+        /// The rule that it broke.
+        rule: Rule,
+        /// How it broke it, in words.
+        what: String,
+    },
 }
 
 /// What unwinds. It says nothing, so that it may be dropped or kept by whoever catches it.
@@ -50,13 +55,14 @@ std::thread_local! {
     static ENDS: RefCell<Vec<End>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Ends the launch index whose program runs on this thread: the launch fails with these words. No panic hook runs.
+/// Ends the launch index whose program runs on this thread and broke this rule: the launch fails with these words. No panic hook
+/// runs.
 ///
 /// # Panics
 /// With the words where no program runs.
 #[cold]
-pub fn fail(what: String) -> ! {
-    end(End::Failed(what))
+pub fn fail(rule: Rule, what: String) -> ! {
+    end(End::Failed { rule, what })
 }
 
 /// Ends the launch index whose program runs on this thread by an exception. No panic hook runs.
@@ -76,7 +82,7 @@ fn end(how: End) -> ! {
             ENDS.with_borrow_mut(|ends| ends.push(how));
             WITHIN.set(Some(Within { ended: true, reach: reach::close(), ..within }));
         }
-        (None, End::Failed(what)) => panic!("{what}"),
+        (None, End::Failed { what, .. }) => panic!("{what}"),
         (None, End::Thrown(exception)) => panic!("exception {} is thrown outside of a program", exception.code),
     }
     resume_unwind(Box::new(Unwinding))
@@ -91,7 +97,7 @@ pub fn goes_on() -> bool {
     match (within.ended, unwound) {
         (true, false) => resume_unwind(Box::new(Unwinding)),
         (false, true) => {
-            ENDS.with_borrow_mut(|ends| ends.push(End::Failed(IN_DESTRUCTOR.to_string())));
+            ENDS.with_borrow_mut(|ends| ends.push(panicked(IN_DESTRUCTOR.to_string())));
             WITHIN.set(Some(Within { ended: true, reach: reach::close(), ..within }));
         }
         (true, true) | (false, false) => {}
@@ -121,10 +127,10 @@ pub unsafe fn catch<T>(programs: impl FnOnce() -> T) -> Result<T, End> {
     });
     match (result, end) {
         (Ok(result), None) => Ok(result),
-        (Err(panic), None) => Err(End::Failed(words(panic))),
+        (Err(panic), None) => Err(panicked(words(panic))),
         // The panic itself says more, if the program did not catch it.
-        (Err(panic), Some(End::Failed(what))) if what == IN_DESTRUCTOR && !panic.is::<Unwinding>() => {
-            Err(End::Failed(words(panic)))
+        (Err(panic), Some(End::Failed { what, .. })) if what == IN_DESTRUCTOR && !panic.is::<Unwinding>() => {
+            Err(panicked(words(panic)))
         }
         (Err(panic), Some(end)) => {
             core::mem::forget(panic);
@@ -132,6 +138,11 @@ pub unsafe fn catch<T>(programs: impl FnOnce() -> T) -> Result<T, End> {
         }
         (Ok(_), Some(end)) => Err(end),
     }
+}
+
+/// By a panic that says this.
+fn panicked(what: String) -> End {
+    End::Failed { rule: Rule::Panic, what }
 }
 
 /// What a panic says.

@@ -7,6 +7,7 @@ pub mod end;
 mod frame;
 mod memory;
 mod reach;
+mod rule;
 pub mod shared;
 mod twin;
 
@@ -21,4 +22,5 @@ pub use frame::{CallableCall, ExceptionState, Executor, Frame, HitState, Instanc
 pub use memory::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, MemoryError, TriangleTable, World};
 pub use reach::{ByHandle, Handle, Reach};
 pub(crate) use reach::{memory, name_of};
+pub use rule::{Checked, Rule};
 pub use twin::{KeepAlive, Kept, Twin, View};

@@ -4,7 +4,7 @@
 //! So a program that hides a view where a later program finds it, in a variable of its thread say, has hidden a number. A
 //! launch that keeps the memory alive knows the number, and any other ends with an error that says so.
 
-use super::end;
+use super::{Rule, end};
 use crate::params::Field;
 use core::cell::Cell;
 use core::ptr::NonNull;
@@ -196,13 +196,12 @@ fn not_held(handle: u64, running: bool) -> NonNull<u8> {
     if let Some(memory) = closed.and_then(|reach| reach.memory.get(handle)) {
         return memory;
     }
-    end::fail(if running || closed.is_some() {
-        "a view is used that this launch's parameters and records do not hold: it was kept from another launch; pass the buffer to \
-         this one"
-            .into()
+    let what = if running || closed.is_some() {
+        "a view is used that this launch's parameters and records do not hold: it was kept from another launch"
     } else {
-        "a view of device memory is used outside of a launch: read the buffer with `Buffer::read`".into()
-    })
+        "a view of device memory is used outside of a launch: read the buffer with `Buffer::read`"
+    };
+    end::fail(Rule::View, what.into())
 }
 
 #[cfg(test)]

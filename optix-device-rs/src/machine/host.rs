@@ -4,7 +4,7 @@ use super::TraceCall;
 use crate::callable::Signature;
 use crate::exception::MAX_DETAILS;
 use crate::host::end;
-use crate::host::{CallableCall, ExceptionState, Frame, name_of};
+use crate::host::{CallableCall, ExceptionState, Frame, Rule, name_of};
 use crate::limits::MAX_PAYLOAD_WORDS;
 use crate::params::LaunchParams;
 use crate::program::Transform;
@@ -79,7 +79,7 @@ pub fn check(index: u32, len: u32, message: core::fmt::Arguments<'_>) {
     #[cold]
     #[inline(never)]
     fn out_of_range(message: core::fmt::Arguments<'_>, at: &Location<'_>) -> ! {
-        end::fail(format!("{message}, at {at}"))
+        end::fail(Rule::Index, format!("{message}, at {at}"))
     }
     if index >= len {
         out_of_range(message, Location::caller());
@@ -99,7 +99,7 @@ pub fn place_if<const N: usize>(
     #[cold]
     #[inline(never)]
     fn out_of_range(view: u64, message: core::fmt::Arguments<'_>, at: &Location<'_>) -> ! {
-        end::fail(format!("{message}, at {at}{}", name_of(view)))
+        end::fail(Rule::Index, format!("{message}, at {at}{}", name_of(view)))
     }
     if in_range.iter().any(|(index, len)| index >= len) {
         out_of_range(view, message, Location::caller());
@@ -146,9 +146,8 @@ impl Cx {
         #[cold]
         #[inline(never)]
         fn waits() -> ! {
-            end::fail(
-                "a context is used while another program runs than the one that it was given to: use the running program's own".into(),
-            )
+            let what = "a context is used while another program runs than the one that it was given to";
+            end::fail(Rule::Context, what.into())
         }
         // SAFETY: the promise of `new`; the reference does not leave the methods below.
         let frame = unsafe { self.0.as_ref() };

@@ -18,7 +18,8 @@ pub use pipeline::{LayoutDifference, PipelineError};
 pub use reference::ReferenceError;
 pub use scene::SceneError;
 
-use optix_device_rs::host::MemoryError;
+use optix_device_rs::host::{MemoryError, Rule};
+use std::borrow::Cow;
 use std::fmt;
 
 /// The result of host calls.
@@ -51,13 +52,15 @@ pub enum Error {
         error: LaunchError,
     },
     /// A program that went wrong on the CPU.
-    #[error("program {program} at launch index {index:?}: {what}")]
+    #[error("program {program} at launch index {index:?}: {what}{}\n  what to do: {}", section(*rule), rule.remedy())]
     Program {
         /// The entry name.
         program: String,
         /// The launch index.
         index: [u32; 3],
-        /// What it did.
+        /// The rule that it broke.
+        rule: Rule,
+        /// How it broke it.
         what: String,
     },
     /// No OptiX on this machine.
@@ -72,6 +75,28 @@ pub enum Error {
     /// The CPU executor could not build an acceleration structure.
     #[error("acceleration structure: {0}")]
     Build(#[from] BuildError),
+}
+
+impl Error {
+    /// What to do about it. Those of drivers say it in their own fields.
+    pub fn remedy(&self) -> Option<Cow<'static, str>> {
+        match self {
+            Self::Geometry(error) => Some(error.remedy()),
+            Self::Scene(error) => Some(error.remedy()),
+            Self::Pipeline { error, .. } => Some(error.remedy()),
+            Self::Launch { error, .. } => Some(error.remedy()),
+            Self::Program { rule, .. } => Some(rule.remedy().into()),
+            Self::NoOptix(_) | Self::Driver(_) | Self::Memory(_) | Self::Build(_) => None,
+        }
+    }
+}
+
+/// Where the guide has a rule, for messages.
+fn section(rule: Rule) -> String {
+    match rule.guide() {
+        "" => String::new(),
+        guide => format!(" (guide {guide})"),
+    }
 }
 
 /// As [`Display`](fmt::Display): what `main` prints of an error that it returns, and `unwrap` of one that it meets.

@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use optix_device_rs::prelude::*;
-use optix_host::{Device, Error, Pipeline, Scene, TriangleMesh, glam::Affine3A};
+use optix_host::{Device, Error, Pipeline, Rule, Scene, TriangleMesh, glam::Affine3A};
 use std::cell::Cell;
 use std::panic::catch_unwind;
 
@@ -218,7 +218,8 @@ fn on_one_thread(test: impl FnOnce() + Send) {
 
 #[track_caller]
 fn refused(result: Result<(), Error>) {
-    let Err(Error::Program { what, .. }) = result else { panic!("{result:?}") };
+    let Err(Error::Program { rule, what, .. }) = result else { panic!("{result:?}") };
+    assert!(matches!(rule, Rule::View | Rule::Held | Rule::CallableRecord), "{rule:?}");
     assert!(what.contains("kept from another launch"), "{what}");
 }
 

@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use optix_device_rs::prelude::*;
-use optix_host::{Aabb, CustomPrimitives, Device, Error, Pipeline, Scene};
+use optix_host::{Aabb, CustomPrimitives, Device, Error, Pipeline, Rule, Scene};
 use scoped_tls::scoped_thread_local;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -184,8 +184,9 @@ fn only_the_program_that_runs_uses_its_context() {
                 result.unwrap();
                 assert_eq!(frame.out.read().unwrap(), [5, 0]);
             } else {
-                let error = result.unwrap_err().to_string();
-                assert!(error.contains("another program runs"), "{mode}: {error}");
+                let error = result.unwrap_err();
+                assert!(matches!(error, Error::Program { rule: Rule::Context, .. }), "{mode}: {error}");
+                assert!(error.to_string().contains("another program runs"), "{mode}: {error}");
             }
         }
     }

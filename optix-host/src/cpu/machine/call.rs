@@ -1,19 +1,19 @@
 //! Program calls and trace calls.
 
+use super::Job;
 use super::checks::{self, Watch};
 use super::handle::{self, rows};
 use super::stack::{Left, Stack};
 use super::traversal::{AtHit, Traversal};
-use super::{Job, rules, trap};
 use crate::cpu::kernel::{self, Accel, RayQuery};
 use crate::sbt::Section;
 use core::cell::Cell;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec3};
 use optix_device_rs::exception::TRACE_DEPTH_EXCEEDED;
-use optix_device_rs::host::end::{goes_on, throw};
+use optix_device_rs::host::end::{fail, goes_on, throw};
 use optix_device_rs::host::{
-    CallableCall, Entry, ExceptionState, Executor, Frame, HitPrograms, HitState, InstanceState, PayloadWatch,
+    CallableCall, Entry, ExceptionState, Executor, Frame, HitPrograms, HitState, InstanceState, PayloadWatch, Rule,
     TraceCall, Turn,
 };
 use optix_device_rs::prelude::{Decision, Ray};
@@ -22,11 +22,10 @@ use optix_device_rs::words::WordBuffer;
 /// Ends the launch index: a program uses what it kept from another launch.
 #[cold]
 fn not_held(what: &str) -> ! {
-    trap(
-        &rules::HELD,
+    fail(
+        Rule::Held,
         format!(
-            "a {what} is used that this launch's parameters and records do not hold: it was kept from another launch; pass its structure \
-         to this one"
+            "a {what} is used that this launch's parameters and records do not hold: it was kept from another launch"
         ),
     )
 }
@@ -86,23 +85,11 @@ impl<'c> Call<'c> {
                 // SAFETY: it has no details.
                 unsafe { throw(ExceptionState::STACK_OVERFLOW) };
             }
-            trap(
-                &rules::STACK,
-                "programs call each other so deep that the stack of the CPU's thread is used up: lower `trace_depth` or \
-                 `callable_depth` in `pipeline!`, or give the threads larger stacks (`RUST_MIN_STACK=16777216` in the \
-                 environment, or `stack_size` of a rayon pool that the launch is made in)"
-                    .into(),
-            )
+            fail(Rule::Stack, "programs call each other so deep that the stack of the CPU's thread is used up".into())
         }
         #[cold]
         fn elsewhere() -> ! {
-            trap(
-                &rules::STACK,
-                "a program traces, calls or launches on another stack than its thread's, and nobody knows how deep that goes: \
-                 have the thread's own stack larger (`RUST_MIN_STACK=16777216` in the environment, or `stack_size` of a rayon pool that \
-                 the launch is made in)"
-                    .into(),
-            )
+            fail(Rule::OtherStack, Rule::OtherStack.what().into())
         }
         match self.stack.left() {
             Left::Enough => {}
@@ -192,8 +179,8 @@ impl<'c> Call<'c> {
                 // SAFETY: it has no details.
                 unsafe { throw(ExceptionState { code: TRACE_DEPTH_EXCEEDED, ..ExceptionState::NONE }) };
             }
-            trap(
-                &rules::TRACE_DEPTH,
+            fail(
+                Rule::TraceDepth,
                 format!("trace calls nest deeper than the pipeline's trace depth of {}", job.depths.trace),
             );
         }
@@ -211,28 +198,25 @@ impl<'c> Call<'c> {
     pub fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
         let job = self.job;
         let Some(index) = job.reached.callables.get(call.number) else {
-            trap(
-                &rules::CALLABLE_RECORD,
+            fail(
+                Rule::CallableRecord,
                 "a callable is called that the scene of this launch did not have when the pipeline was built: it was kept from another \
-                 launch; make it with this scene, and pass it to this launch"
+                 launch"
                     .into(),
             )
         };
         let callable = &job.description.callables[job.sbt.callables.programs()[index].program];
         if (callable.continuation, callable.signature) != (call.continuation, call.signature) {
-            trap(
-                &rules::CALLABLE_SIGNATURE,
+            fail(
+                Rule::CallableSignature,
                 format!("{} is called with another signature or as another kind", callable.entry.name),
             );
         }
         let callables = self.callables + 1;
         if callables > job.depths.callables() {
-            trap(
-                &rules::CALLABLE_DEPTH,
-                format!(
-                    "callables call each other deeper than the pipeline's {} levels: state `callable_depth: N` in `pipeline!`",
-                    job.depths.callables()
-                ),
+            fail(
+                Rule::CallableDepth,
+                format!("callables call each other deeper than the pipeline's {} levels", job.depths.callables()),
             );
         }
         self.check_stack();
@@ -307,22 +291,22 @@ impl Executor for Call<'_> {
         Call::call(self, call, words);
     }
     fn report(&self, _: f32, _: u8, _: usize, _: &WordBuffer) -> bool {
-        trap(&rules::KIND, "only an intersection program reports hits".into())
+        fail(Rule::Kind, "only an intersection program reports hits".into())
     }
     fn interval_end(&self) -> f32 {
-        trap(&rules::KIND, "only an intersection program has an interval that shrinks".into())
+        fail(Rule::Kind, "only an intersection program has an interval that shrinks".into())
     }
     fn triangle_vertices(&self) -> [Vec3; 3] {
-        trap(&rules::KIND, "there is no triangle".into())
+        fail(Rule::Kind, "there is no triangle".into())
     }
     fn gas_traversable_handle(&self) -> u64 {
-        trap(&rules::KIND, "there is no primitive, so no GAS".into())
+        fail(Rule::Kind, "there is no primitive, so no GAS".into())
     }
     fn transform_list_size(&self) -> u32 {
-        trap(&rules::KIND, "there is no primitive, so no transform list".into())
+        fail(Rule::Kind, "there is no primitive, so no transform list".into())
     }
     fn transform_list_handle(&self, _: u32) -> u64 {
-        trap(&rules::KIND, "there is no primitive, so no transform list".into())
+        fail(Rule::Kind, "there is no primitive, so no transform list".into())
     }
     unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
         let placed = match self.job.reached.read.get(ias) {
@@ -334,7 +318,7 @@ impl Executor for Call<'_> {
     unsafe fn instance(&self, handle: u64) -> InstanceState {
         // SAFETY: the caller's.
         let Some(placed) = (unsafe { handle::instance(handle) }) else {
-            trap(&rules::INSTANCE_HANDLE, "a handle is of no instance".into())
+            fail(Rule::InstanceHandle, "a handle is of no instance".into())
         };
         InstanceState {
             id: placed.instance.instance_id,
@@ -350,13 +334,13 @@ impl Executor for Call<'_> {
         };
         match vertices {
             Some(vertices) => vertices.map(Vec3::from_array),
-            None => trap(&rules::TRIANGLE_INDEX, format!("there is no triangle {primitive} of record {sbt_gas_index}")),
+            None => fail(Rule::TriangleIndex, format!("there is no triangle {primitive} of record {sbt_gas_index}")),
         }
     }
     fn object_to_world(&self) -> [[f32; 4]; 3] {
-        trap(&rules::KIND, "there is no hit, so no transform".into())
+        fail(Rule::Kind, "there is no hit, so no transform".into())
     }
     fn world_to_object(&self) -> [[f32; 4]; 3] {
-        trap(&rules::KIND, "there is no hit, so no transform".into())
+        fail(Rule::Kind, "there is no hit, so no transform".into())
     }
 }

@@ -1,10 +1,11 @@
 //! How the checked mode finds out what the OptiX guide calls undefined or leaves to the application.
 
-use super::{Job, rules, trap};
+use super::Job;
 use crate::cpu::kernel::{Aabb, InstancePath, Ray, Site};
 use core::cell::RefCell;
 use glam::Vec3;
-use optix_device_rs::host::{PayloadDescription, PayloadWatch, TraceCall};
+use optix_device_rs::host::end::fail;
+use optix_device_rs::host::{PayloadDescription, PayloadWatch, Rule, TraceCall};
 use optix_device_rs::spawn::gamma;
 
 /// Checks the arguments of a trace call; gives what is known of its payload.
@@ -12,26 +13,26 @@ pub(super) fn trace(job: &Job<'_>, trace: &TraceCall) -> Watch {
     let ray = &trace.ray;
     for (what, vector) in [("origin", ray.origin), ("direction", ray.direction)] {
         if !vector.is_finite() {
-            trap(&rules::RAY, format!("the ray's {what} {vector} is not finite"));
+            fail(Rule::Ray, format!("the ray's {what} {vector} is not finite"));
         }
     }
     if ray.direction == Vec3::ZERO {
-        trap(&rules::RAY, "the ray has no direction: all its elements are 0".into());
+        fail(Rule::Ray, "the ray has no direction: all its elements are 0".into());
     }
     // An infinite tmax is an interval without end.
     if ray.tmin.is_nan() || ray.tmin.is_infinite() {
-        trap(&rules::INTERVAL, format!("tmin is {}", ray.tmin));
+        fail(Rule::Interval, format!("tmin is {}", ray.tmin));
     }
     if ray.tmax.is_nan() || ray.tmax == f32::NEG_INFINITY {
-        trap(&rules::INTERVAL, format!("tmax is {}", ray.tmax));
+        fail(Rule::Interval, format!("tmax is {}", ray.tmax));
     }
     if ray.tmin < 0.0 {
-        trap(&rules::INTERVAL, format!("tmin is negative: {}", ray.tmin));
+        fail(Rule::Interval, format!("tmin is negative: {}", ray.tmin));
     }
     // Exclusive among themselves: four about any-hit, two about culling by face.
-    for (group, rule) in [(1 | 2 | 64 | 128, &rules::ANYHIT_FLAGS), (16 | 32, &rules::CULL_FLAGS)] {
+    for (group, rule) in [(1 | 2 | 64 | 128, Rule::AnyHitFlags), (16 | 32, Rule::CullFlags)] {
         if (ray.flags.bits() & group).count_ones() > 1 {
-            trap(rule, format!("the ray flags {:#x} have two that exclude each other", ray.flags.bits()));
+            fail(rule, format!("the ray flags {:#x} have two that exclude each other", ray.flags.bits()));
         }
     }
     Watch::new(job.ray(trace.miss_index).payload, trace)
@@ -48,11 +49,11 @@ pub(super) fn no_ray(path: &InstancePath<'_>, object_ray: &Ray) -> ! {
         "all elements of its direction become 0".into()
     };
     let (indices, id) = (path.indices(), path.instance_id());
-    trap(
-        &rules::OBJECT_RAY,
+    fail(
+        Rule::ObjectRay,
         format!(
             "the ray can't be taken to the object space of the instance with ID {id}, at {indices:?} from the root: {what}, so it \
-             misses what the instance holds; scale the scene, or the instance's transform, to sizes that 32 bits can have"
+             misses what the instance holds"
         ),
     )
 }
@@ -60,10 +61,10 @@ pub(super) fn no_ray(path: &InstancePath<'_>, object_ray: &Ray) -> ! {
 /// Checks a report at a primitive, while hits up to `tmax` count.
 pub(super) fn report(site: &Site<'_>, tmax: f32, t: f32, kind: u8) {
     if kind > 127 {
-        trap(&rules::HIT_KIND, format!("hit kind {kind} is reported: 128 to 255 are of built-in primitives"));
+        fail(Rule::HitKind, format!("hit kind {kind} is reported: 128 to 255 are of built-in primitives"));
     }
     if t.is_nan() {
-        trap(&rules::HIT_NAN, "a hit is reported at t = NaN".into());
+        fail(Rule::HitNan, "a hit is reported at t = NaN".into());
     }
     // A report outside of the interval is lawful, and no hit.
     if (site.query.tmin..=tmax).contains(&t)
@@ -77,11 +78,10 @@ pub(super) fn report(site: &Site<'_>, tmax: f32, t: f32, kind: u8) {
             (origin + way).clamp(f64::from(min[a]) - slack, f64::from(max[a]) + slack) - (origin + way)
         });
         if at != [0.0; 3] {
-            trap(
-                &rules::OUTSIDE_BOX,
+            fail(
+                Rule::OutsideBox,
                 format!(
-                    "a hit is reported at t = {t}, outside of the primitive's box from {min:?} to {max:?} by {at:?}: rays that \
-                     pass the box by don't find it"
+                    "a hit is reported at t = {t}, outside of the primitive's box from {min:?} to {max:?} by {at:?}"
                 ),
             );
         }
@@ -108,8 +108,8 @@ impl Watch {
     /// A program for rays of this type is about to run.
     pub fn runs(&self, ray: usize) {
         if self.payload_type != 1 << ray {
-            trap(
-                &rules::PAYLOAD_TYPE,
+            fail(
+                Rule::PayloadType,
                 format!(
                     "payload type {:#x} is traced, but the record that the ray comes to is of programs for {:#x}",
                     self.payload_type,
@@ -122,8 +122,8 @@ impl Watch {
     /// The trace call returns, and its caller takes these fields.
     pub fn returns(&self, fields: &'static [usize]) {
         if let Some(field) = self.unwritten(fields) {
-            trap(
-                &rules::PAYLOAD_UNWRITTEN,
+            fail(
+                Rule::PayloadUnwritten,
                 format!(
                     "{field} comes back to the caller, which reads it, but neither the caller nor any program of this trace wrote it"
                 ),
@@ -146,10 +146,7 @@ impl Watch {
 impl PayloadWatch for Watch {
     fn takes(&self, fields: &'static [usize]) {
         if let Some(field) = self.unwritten(fields) {
-            trap(
-                &rules::PAYLOAD_UNWRITTEN,
-                format!("{field} is read, but neither the caller nor any program wrote it"),
-            );
+            fail(Rule::PayloadUnwritten, format!("{field} is read, but neither the caller nor any program wrote it"));
         }
     }
 

@@ -7,13 +7,13 @@
 //! | `exceptions` | what is thrown, and what becomes of it |
 //! | `handle` | traversable handles |
 //! | `stack` | how much of its stack a thread has left |
-//! | `rules` | what launches end for |
 //! | `checks` | how the checked mode finds out |
 
 mod call;
 mod checks;
 mod exceptions;
 mod handle;
+#[cfg(test)]
 mod rules;
 mod stack;
 #[cfg(test)]
@@ -28,10 +28,9 @@ use call::Call;
 use core::cell::Cell;
 use exceptions::Unhandled;
 use glam::UVec3;
-use optix_device_rs::host::end::{self, End};
-use optix_device_rs::host::{ByHandle, HitPrograms, PipelineDescription, RayDescription, Reach};
+use optix_device_rs::host::end::{self, End, fail};
+use optix_device_rs::host::{ByHandle, HitPrograms, PipelineDescription, RayDescription, Reach, Rule};
 use rayon::prelude::*;
-use rules::Rule;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Arc, Mutex};
 
@@ -108,8 +107,8 @@ impl<'a> Job<'a> {
     fn ray(&self, miss_index: u32) -> &RayDescription {
         match self.description.rays.get(miss_index as usize) {
             Some(ray) => ray,
-            None => trap(
-                &rules::MISS_RECORD,
+            None => fail(
+                Rule::MissRecord,
                 format!("there is no miss record {miss_index}: the pipeline has {}", self.description.rays.len()),
             ),
         }
@@ -120,8 +119,8 @@ impl<'a> Job<'a> {
     fn hit_programs(&self, sbt_index: u32) -> (usize, &'a HitPrograms) {
         match self.sbt.hit.programs().get(sbt_index as usize) {
             Some(slot) => (slot.ray, &self.description.hitgroups[slot.group].rays[slot.ray]),
-            None => trap(
-                &rules::HIT_RECORD,
+            None => fail(
+                Rule::HitRecord,
                 format!(
                     "a hit asks for record {sbt_index} of the hit-group table, which has {}",
                     self.sbt.hit.programs().len()
@@ -168,12 +167,6 @@ fn run_all(job: &Job<'_>) -> Result<()> {
     }
 }
 
-/// Ends the launch index: the running program broke the rule, and says `what` of that.
-#[cold]
-fn trap(rule: &Rule, what: String) -> ! {
-    end::fail(format!("{what} (guide {})", rule.guide))
-}
-
 fn run_index(job: &Job<'_>, index: UVec3) -> Result<()> {
     let running = Cell::new(job.description.raygen[job.raygen].entry.name);
     // SAFETY: this is the executor; nothing of the index runs after an end but its exception program, which is told of it.
@@ -195,7 +188,9 @@ fn run_index(job: &Job<'_>, index: UVec3) -> Result<()> {
     };
     match ended {
         Ok(()) => Ok(()),
-        Err(End::Failed(what)) => Err(Error::Program { program: running.get().into(), index: index.to_array(), what }),
+        Err(End::Failed { rule, what }) => {
+            Err(Error::Program { program: running.get().into(), index: index.to_array(), rule, what })
+        }
         // It has no way to throw.
         Err(End::Thrown(exception)) => {
             job.unhandled.add(job, index, running.get(), &exception);

@@ -13,7 +13,7 @@ use optix_device_rs::host::{
 };
 use optix_device_rs::machine::Cx;
 use optix_device_rs::payload::Field;
-use optix_device_rs::prelude::{AnyHitMode, CullFaces, Decision, Ray, RayFlags};
+use optix_device_rs::prelude::{AnyHitMode, CullFaces, Decision, Ray, RayFlags, Slice};
 use optix_device_rs::words::WordBuffer;
 
 /// What the programs do. Fields are of the payload.
@@ -72,7 +72,7 @@ const PLANNED: Planned = Planned {
 #[derive(Debug, PartialEq)]
 enum Outcome {
     Done,
-    Trapped(String),
+    Trapped(Rule, String),
     /// By an exception that no program is told of.
     Thrown(Vec<String>),
 }
@@ -210,11 +210,11 @@ fn lawful(custom: bool) -> Script {
     }
 }
 
-/// Runs launch index (3, 1, 0) of a launch by the script; the message if it is trapped.
-fn run(custom: bool, checked: bool, script: Script) -> Option<String> {
+/// Runs launch index (3, 1, 0) of a launch by the script; the broken rule and the message if it is trapped.
+fn run(custom: bool, checked: bool, script: Script) -> Option<(Rule, String)> {
     match run_planned(custom, checked, script, PLANNED) {
         Outcome::Done => None,
-        Outcome::Trapped(message) => Some(message),
+        Outcome::Trapped(rule, message) => Some((rule, message)),
         Outcome::Thrown(what) => panic!("{what:?}"),
     }
 }
@@ -266,7 +266,10 @@ fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned
         unhandled: Unhandled::default(),
     };
     match run_index(&job, UVec3::new(3, 1, 0)) {
-        Err(error) => Outcome::Trapped(error.to_string()),
+        Err(error) => match error {
+            Error::Program { rule, .. } => Outcome::Trapped(rule, error.to_string()),
+            _ => panic!("{error}"),
+        },
         Ok(()) => match job.unhandled.reports() {
             reports if reports.is_empty() => Outcome::Done,
             reports => Outcome::Thrown(reports),
@@ -276,14 +279,15 @@ fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned
 
 /// The call, changed, is trapped in checked mode, with all of these words in the message, and not otherwise.
 #[track_caller]
-fn traps(custom: bool, change: impl FnOnce(&mut Script), program: &str, rule: &Rule, words: &[&str]) {
+fn traps(custom: bool, change: impl FnOnce(&mut Script), program: &str, rule: Rule, words: &[&str]) {
     assert_eq!(run(custom, true, lawful(custom)), None);
     let mut script = lawful(custom);
     change(&mut script);
     assert_eq!(run(custom, false, script), None);
-    let message = run(custom, true, script).expect("the checked mode says nothing");
-    let guide = format!("(guide {})", rule.guide);
-    for part in [program, "[3, 1, 0]", &guide].iter().chain(words) {
+    let (broken, message) = run(custom, true, script).expect("the checked mode says nothing");
+    assert_eq!(broken, rule, "{message}");
+    let guide = format!("(guide {})", rule.guide());
+    for part in [program, "[3, 1, 0]", &guide, rule.remedy()].iter().chain(words) {
         assert!(message.contains(part), "no `{part}` in: {message}");
     }
 }
@@ -291,9 +295,9 @@ fn traps(custom: bool, change: impl FnOnce(&mut Script), program: &str, rule: &R
 #[test]
 fn rays_that_are_not_finite() {
     let raygen = "__raygen__test";
-    traps(false, |s| s.call.ray.origin.y = f32::NAN, raygen, &rules::RAY, &["origin [0.25, NaN, 2] is not finite"]);
-    traps(false, |s| s.call.ray.direction.z = f32::INFINITY, raygen, &rules::RAY, &["direction", "not finite"]);
-    traps(false, |s| s.call.ray.direction = Vec3::ZERO, raygen, &rules::RAY, &["no direction"]);
+    traps(false, |s| s.call.ray.origin.y = f32::NAN, raygen, Rule::Ray, &["origin [0.25, NaN, 2] is not finite"]);
+    traps(false, |s| s.call.ray.direction.z = f32::INFINITY, raygen, Rule::Ray, &["direction", "not finite"]);
+    traps(false, |s| s.call.ray.direction = Vec3::ZERO, raygen, Rule::Ray, &["no direction"]);
 }
 
 #[test]
@@ -306,7 +310,7 @@ fn rays_that_are_none_in_object_space() {
     };
     let trapped = |change: &dyn Fn(&mut Script), words: &[&str]| {
         let words = [&["the instance with ID 17, at [0] from the root"], words].concat();
-        traps(false, change, "__raygen__test", &rules::OBJECT_RAY, &words);
+        traps(false, change, "__raygen__test", Rule::ObjectRay, &words);
     };
     let over = Vec3::new(0.0, 0.0, 2.0);
     trapped(&at(3e-39, over, Vec3::NEG_Z), &["its origin becomes [0, 0, inf]"]);
@@ -322,10 +326,10 @@ fn rays_that_are_none_in_object_space() {
 #[test]
 fn intervals() {
     let raygen = "__raygen__test";
-    traps(false, |s| s.call.ray.tmin = -1e-3, raygen, &rules::INTERVAL, &["tmin is negative: -0.001"]);
-    traps(false, |s| s.call.ray.tmin = f32::NAN, raygen, &rules::INTERVAL, &["tmin is NaN"]);
-    traps(false, |s| s.call.ray.tmin = f32::INFINITY, raygen, &rules::INTERVAL, &["tmin is inf"]);
-    traps(false, |s| s.call.ray.tmax = f32::NAN, raygen, &rules::INTERVAL, &["tmax is NaN"]);
+    traps(false, |s| s.call.ray.tmin = -1e-3, raygen, Rule::Interval, &["tmin is negative: -0.001"]);
+    traps(false, |s| s.call.ray.tmin = f32::NAN, raygen, Rule::Interval, &["tmin is NaN"]);
+    traps(false, |s| s.call.ray.tmin = f32::INFINITY, raygen, Rule::Interval, &["tmin is inf"]);
+    traps(false, |s| s.call.ray.tmax = f32::NAN, raygen, Rule::Interval, &["tmax is NaN"]);
     let mut endless = lawful(false);
     endless.call.ray.tmax = f32::INFINITY;
     assert_eq!(run(false, true, endless), None);
@@ -335,7 +339,7 @@ fn intervals() {
 fn flags_that_exclude_each_other() {
     // SAFETY: on the CPU, which refuses those that exclude each other.
     let flags = |bits: u32| unsafe { RayFlags::from_bits(bits) };
-    for (rule, group) in [(&rules::ANYHIT_FLAGS, &[1, 2, 64, 128][..]), (&rules::CULL_FLAGS, &[16, 32])] {
+    for (rule, group) in [(Rule::AnyHitFlags, &[1, 2, 64, 128][..]), (Rule::CullFlags, &[16, 32])] {
         for (i, one) in group.iter().enumerate() {
             for other in &group[..i] {
                 let words = ["exclude", &format!("{:#x}", one | other)];
@@ -360,10 +364,10 @@ fn flags_that_exclude_each_other() {
 fn programs_of_another_payload_type() {
     let other = |s: &mut Script| s.call.payload_type = 2;
     for (custom, program) in [(false, "__raygen__test"), (true, "__raygen__test")] {
-        traps(custom, other, program, &rules::PAYLOAD_TYPE, &["payload type 0x2 is traced", "for 0x1"]);
+        traps(custom, other, program, Rule::PayloadType, &["payload type 0x2 is traced", "for 0x1"]);
     }
     let missing = |s: &mut Script| (s.call.payload_type, s.call.ray.direction) = (4, Vec3::Z);
-    traps(false, missing, "__raygen__test", &rules::PAYLOAD_TYPE, &["payload type 0x4"]);
+    traps(false, missing, "__raygen__test", Rule::PayloadType, &["payload type 0x4"]);
 }
 
 /// No typed program can ask these; they are trapped in either mode, since there is no answer.
@@ -371,15 +375,15 @@ fn programs_of_another_payload_type() {
 fn questions_without_an_answer() {
     for checked in [false, true] {
         for (i, (rule, asks)) in unsafe_asks().into_iter().enumerate() {
-            let message =
+            let (broken, message) =
                 run(false, checked, Script { asks, ..lawful(false) }).unwrap_or_else(|| panic!("question {i}"));
-            let guide = format!("(guide {})", rule.guide);
-            assert!(message.contains(&guide) && message.contains("__raygen__test"), "{message}");
+            assert_eq!(broken, rule, "{message}");
+            assert!(message.contains("__raygen__test"), "{message}");
         }
         let mut elsewhere = lawful(false);
         elsewhere.call.traversable = u64::MAX;
-        let message = run(false, checked, elsewhere).unwrap();
-        assert!(message.contains("kept from another launch") && message.contains(rules::HELD.guide), "{message}");
+        let (rule, message) = run(false, checked, elsewhere).unwrap();
+        assert!(rule == Rule::Held && message.contains("kept from another launch"), "{message}");
         // The triangle that is there.
         // SAFETY: as above.
         let asks: Asks = |cx, gas| unsafe {
@@ -390,40 +394,44 @@ fn questions_without_an_answer() {
 }
 
 /// Questions of a ray-generation program, and the rules that they break.
-fn unsafe_asks() -> [(&'static Rule, Asks); 10] {
+fn unsafe_asks() -> [(Rule, Asks); 12] {
     // SAFETY: the executor answers none of these, and says why.
     unsafe {
         [
-            (&rules::KIND, |cx, _| {
+            (Rule::Kind, |cx, _| {
                 cx.report(1.0, 0, 0, &WordBuffer::ZERO);
             }),
-            (&rules::KIND, |cx, _| {
+            (Rule::Kind, |cx, _| {
                 cx.interval_end();
             }),
-            (&rules::KIND, |cx, _| {
+            (Rule::Kind, |cx, _| {
                 cx.triangle_vertices();
             }),
-            (&rules::KIND, |cx, _| {
+            (Rule::Kind, |cx, _| {
                 cx.gas_traversable_handle();
             }),
-            (&rules::KIND, |cx, _| {
+            (Rule::Kind, |cx, _| {
                 cx.transform_list_size();
             }),
-            (&rules::KIND, |cx, _| {
+            (Rule::Kind, |cx, _| {
                 cx.object_to_world();
             }),
-            (&rules::HELD, |cx, gas| {
+            (Rule::Held, |cx, gas| {
                 cx.instance_traversable_from_ias(gas, 0);
             }),
-            (&rules::INSTANCE_HANDLE, |cx, _| {
+            (Rule::InstanceHandle, |cx, _| {
                 cx.instance_id_from_handle(0);
             }),
-            (&rules::TRIANGLE_INDEX, |cx, gas| {
+            (Rule::TriangleIndex, |cx, gas| {
                 cx.triangle_vertices_from_handle(gas, 1, 0);
             }),
-            (&rules::HELD, |cx, _| {
+            (Rule::Held, |cx, _| {
                 cx.triangle_vertices_from_handle(u64::MAX, 0, 0);
             }),
+            (Rule::Index, |_, _| {
+                Slice::<u32>::EMPTY.get(0);
+            }),
+            (Rule::Panic, |_, _| std::panic::resume_unwind(Box::new("out of rays"))),
         ]
     }
 }
@@ -431,9 +439,9 @@ fn unsafe_asks() -> [(&'static Rule, Asks); 10] {
 #[test]
 fn reported_hits() {
     let program = "__intersection__test";
-    traps(true, |s| s.report.1 = 128, program, &rules::HIT_KIND, &["hit kind 128"]);
-    traps(true, |s| s.report.0 = f32::NAN, program, &rules::HIT_NAN, &["t = NaN"]);
-    traps(true, |s| s.report.0 = 0.5, program, &rules::OUTSIDE_BOX, &["t = 0.5, outside of the primitive's box"]);
+    traps(true, |s| s.report.1 = 128, program, Rule::HitKind, &["hit kind 128"]);
+    traps(true, |s| s.report.0 = f32::NAN, program, Rule::HitNan, &["t = NaN"]);
+    traps(true, |s| s.report.0 = 0.5, program, Rule::OutsideBox, &["t = 0.5, outside of the primitive's box"]);
     // Outside of the interval it is no hit.
     let mut behind = lawful(true);
     (behind.report.0, behind.call.ray.tmin) = (0.5, 1.0);
@@ -452,7 +460,7 @@ fn payload_fields_that_nobody_wrote() {
         false,
         change,
         "__closesthit__test",
-        &rules::PAYLOAD_UNWRITTEN,
+        Rule::PayloadUnwritten,
         &["payload field `Radiance::hits` (word 2) is read"],
     );
     // With any-hit it is lawful.
@@ -473,7 +481,7 @@ fn payload_fields_that_come_back_unwritten() {
         false,
         change,
         "__raygen__test",
-        &rules::PAYLOAD_UNWRITTEN,
+        Rule::PayloadUnwritten,
         &["payload field `Radiance::light` (words 3 to 4)", "comes back"],
     );
     for towards in [Vec3::NEG_Z, Vec3::Z] {
@@ -490,26 +498,23 @@ fn records_and_depth() {
     for checked in [false, true] {
         let mut outside = lawful(false);
         outside.call.sbt_offset = 2;
-        let message = run(false, checked, outside).unwrap();
+        let (rule, message) = run(false, checked, outside).unwrap();
         assert!(message.contains("record 2 of the hit-group table, which has 2"), "{message}");
-        assert!(message.contains(rules::HIT_RECORD.guide), "{message}");
+        assert_eq!(rule, Rule::HitRecord);
 
         let mut deep = lawful(false);
         deep.nested = 1;
         assert_eq!(run(false, checked, deep), None);
         deep.nested = 2;
-        let message = run(false, checked, deep).unwrap();
-        assert!(message.contains("trace depth of 2") && message.contains(rules::TRACE_DEPTH.guide), "{message}");
+        let (rule, message) = run(false, checked, deep).unwrap();
+        assert!(rule == Rule::TraceDepth && message.contains("trace depth of 2"), "{message}");
         assert!(message.contains("__closesthit__test"), "{message}");
 
         let mut nowhere = lawful(false);
         nowhere.call.ray.direction = Vec3::Z;
         nowhere.call.miss_index = 1;
-        let message = run(false, checked, nowhere).unwrap();
-        assert!(
-            message.contains("no miss record 1: the pipeline has 1") && message.contains(rules::MISS_RECORD.guide),
-            "{message}"
-        );
+        let (rule, message) = run(false, checked, nowhere).unwrap();
+        assert!(rule == Rule::MissRecord && message.contains("no miss record 1: the pipeline has 1"), "{message}");
     }
 }
 
@@ -520,24 +525,14 @@ fn callables() {
         let run = |callable| run(false, checked, Script { callable, ..lawful(false) });
         assert_eq!(run(Called::Record(CALLABLE, true)), None);
         // The index of its record is not its number.
-        let message = run(Called::Record(0, true)).unwrap();
-        assert!(
-            message.contains("kept from another launch") && message.contains(rules::CALLABLE_RECORD.guide),
-            "{message}"
-        );
-        let message = run(Called::Record(CALLABLE, false)).unwrap();
-        assert!(
-            message.contains("__direct_callable__test") && message.contains(rules::CALLABLE_SIGNATURE.guide),
-            "{message}"
-        );
+        let (rule, message) = run(Called::Record(0, true)).unwrap();
+        assert!(rule == Rule::CallableRecord && message.contains("kept from another launch"), "{message}");
+        let (rule, message) = run(Called::Record(CALLABLE, false)).unwrap();
+        assert!(rule == Rule::CallableSignature && message.contains("__direct_callable__test"), "{message}");
         assert_eq!(run(Called::Nested(2)), None);
-        let message = run(Called::Nested(3)).unwrap();
-        assert!(
-            message.contains("3 levels")
-                && message.contains("callable_depth")
-                && message.contains(rules::CALLABLE_DEPTH.guide),
-            "{message}"
-        );
+        let (rule, message) = run(Called::Nested(3)).unwrap();
+        assert_eq!(rule, Rule::CallableDepth);
+        assert!(message.contains("3 levels") && message.contains("callable_depth"), "{message}");
     }
 }
 
@@ -554,14 +549,9 @@ fn stacks_that_are_used_up() {
     traces.nested = 1_000_000;
     let calls = Script { callable: Called::Nested(1_000_000), ..lawful(false) };
     for (script, program) in [(traces, "__closesthit__test"), (calls, "__direct_callable__test")] {
-        let Outcome::Trapped(message) = in_thread(script, endless) else { panic!("there is no such stack") };
-        assert!(
-            message.contains("stack")
-                && message.contains(rules::STACK.guide)
-                && message.contains(program)
-                && message.contains("[3, 1, 0]"),
-            "{message}"
-        );
+        let Outcome::Trapped(rule, message) = in_thread(script, endless) else { panic!("there is no such stack") };
+        assert_eq!(rule, Rule::Stack);
+        assert!(message.contains("stack") && message.contains(program) && message.contains("[3, 1, 0]"), "{message}");
         let exceptions = Exceptions { stack_overflow: true, ..PLANNED.exceptions };
         let Outcome::Thrown(what) = in_thread(script, Planned { exceptions, ..endless }) else {
             panic!("no exception")
