@@ -86,7 +86,8 @@ impl Error {
             Self::Pipeline { error, .. } => Some(error.remedy()),
             Self::Launch { error, .. } => Some(error.remedy()),
             Self::Program { rule, .. } => Some(rule.remedy().into()),
-            Self::NoOptix(_) | Self::Driver(_) | Self::Memory(_) | Self::Build(_) => None,
+            Self::Build(error) => Some(error.remedy()),
+            Self::NoOptix(_) | Self::Driver(_) | Self::Memory(_) => None,
         }
     }
 }
