@@ -1,7 +1,6 @@
 //! Geometry acceleration structures.
 
-use super::aabb::Aabb;
-use super::bvh::Bvh;
+use super::bvh::{Aabb, Bvh};
 use super::primitive::Primitives;
 use crate::error::BuildError;
 use crate::geometry::{BuildInput, GasInputs, GasLimits, GeometryFlags, PrimitiveArray};
@@ -60,33 +59,6 @@ impl Gas {
         self.flags.get(sbt_gas_index as usize).copied()
     }
 
-    pub fn is_triangles(&self) -> bool {
-        matches!(self.primitives, Primitives::Triangles(_))
-    }
-
-    /// The corners, in object space, of the triangle with this reported primitive index in the build input that
-    /// `sbt_gas_index` belongs to (guide 13.9): NaN for one without area. `None` if there is none, or if these are custom
-    /// primitives.
-    pub fn triangle_vertices(&self, sbt_gas_index: u32, primitive_index: u32) -> Option<[[f32; 3]; 3]> {
-        let Primitives::Triangles(triangles) = &self.primitives else { return None };
-        let (input, local) = self.locate(sbt_gas_index, primitive_index)?;
-        triangles.vertices(input, local)
-    }
-
-    /// The box, in object space, of the custom primitive with this reported index; see [`Gas::triangle_vertices`].
-    pub fn custom_box(&self, sbt_gas_index: u32, primitive_index: u32) -> Option<Aabb> {
-        let Primitives::Custom(boxes) = &self.primitives else { return None };
-        let (input, local) = self.locate(sbt_gas_index, primitive_index)?;
-        boxes.get(input, local)
-    }
-
-    /// The corners of the triangle in a lane of a block; see [`Found::slot`](super::state::Found::slot).
-    #[inline]
-    pub(super) fn triangle_in(&self, slot: u32) -> Option<[[f32; 3]; 3]> {
-        let Primitives::Triangles(triangles) = &self.primitives else { return None };
-        triangles.in_slot(slot)
-    }
-
     /// Heap bytes of nodes, blocks and tables, and of the inputs, which are kept for the accessors.
     pub fn memory_bytes(&self) -> usize {
         let tables = size_of_val(&self.flags[..]) + size_of_val(&self.records[..]) + size_of_val(&self.parts[..]);
@@ -114,7 +86,8 @@ impl Gas {
         self.flags[record as usize]
     }
 
-    fn locate(&self, sbt_gas_index: u32, primitive_index: u32) -> Option<(usize, usize)> {
+    /// The build input and the index in it of the primitive that programs know by these numbers, if there is such an input.
+    pub(super) fn locate(&self, sbt_gas_index: u32, primitive_index: u32) -> Option<(usize, usize)> {
         if sbt_gas_index as usize >= self.flags.len() {
             return None;
         }

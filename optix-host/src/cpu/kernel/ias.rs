@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use super::aabb::Aabb;
-use super::bvh::Bvh;
-use super::collapse::SINGLE_LEAF;
+use super::bvh::{Aabb, Bvh, SINGLE_LEAF};
 use super::gas::Gas;
 use crate::affine::Affine;
 use crate::error::BuildError;

@@ -6,17 +6,14 @@
 //! | --- | --- |
 //! | `gas`, `ias` | structures and their inputs, checked |
 //! | `primitive` | the kinds of primitives, a file or folder each |
-//! | `binary`, `collapse`, `bvh` | the 8-wide hierarchy: built by obvhs, collapsed at least cost, laid out |
-//! | `ray`, `simd`, `primitive::triangle::test` | the arithmetic: box and triangle tests, their error bounds |
+//! | `bvh` | the 8-wide hierarchy: a binary one built by obvhs, collapsed at least cost, laid out |
+//! | `ray`, `simd`, `primitive::triangle::{intersect, simd}` | the arithmetic: box and triangle tests, their error bounds |
 //! | `trace`, `stack` | traversal |
 //! | `candidate`, `state` | what becomes of what a test finds: interval, culling, any-hit, acceptance |
 //! | `program`, `path` | what programs are told, and report |
 
-mod aabb;
-mod binary;
 mod bvh;
 mod candidate;
-mod collapse;
 mod flags;
 mod gas;
 mod ias;
@@ -35,7 +32,7 @@ mod tests;
 pub use crate::affine::Affine;
 pub use crate::error::BuildError;
 pub use crate::limits::MAX_GRAPH_DEPTH;
-pub use aabb::Aabb;
+pub use bvh::Aabb;
 pub use flags::{Verdict, any_hit_verdict, ray_flags};
 pub use gas::Gas;
 pub use ias::{Accel, Ias, Instance, Placed};

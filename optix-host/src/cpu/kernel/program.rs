@@ -59,13 +59,6 @@ pub struct Candidate<'s> {
     pub(super) slot: u32,
 }
 
-impl Candidate<'_> {
-    /// The corners of the triangle, in object space; `None` for a custom primitive.
-    pub fn triangle_vertices(&self) -> Option<[[f32; 3]; 3]> {
-        self.site.gas.triangle_in(self.slot)
-    }
-}
-
 /// The closest accepted hit of a trace.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit<'a> {
@@ -84,18 +77,6 @@ pub struct Hit<'a> {
     pub(super) slot: u32,
     pub gas: &'a Gas,
     pub path: InstancePath<'a>,
-}
-
-impl Hit<'_> {
-    /// The weights of a triangle's second and third corner.
-    pub fn barycentrics(&self) -> [f32; 2] {
-        [self.attributes[0], self.attributes[1]].map(f32::from_bits)
-    }
-
-    /// The corners of the triangle that was hit, in object space; `None` for a custom primitive.
-    pub fn triangle_vertices(&self) -> Option<[[f32; 3]; 3]> {
-        self.gas.triangle_in(self.slot)
-    }
 }
 
 /// Takes the hits that an intersection program finds on one primitive.

@@ -2,7 +2,7 @@
 
 use glam::{BVec3A, Vec3A};
 
-use super::aabb::Aabb;
+use super::bvh::Aabb;
 
 /// The arguments of a trace call (guide 13.2).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use super::bvh::{Bvh, Child, Lanes};
 use super::candidate::{Place, Sink};
 use super::ias::{Accel, Ias};
 use super::path::InstancePath;
-use super::primitive::{Leaves, Primitives};
+use super::primitive::{LeafRay, Leaves, Primitives};
 use super::program::{Hit, Programs};
 use super::ray::{BoxRay, Frame, Ray, RayQuery};
 #[cfg(target_arch = "x86_64")]
@@ -25,7 +25,7 @@ use crate::scene::InstanceFlags;
 /// Which candidates behind the final hit are offered to any-hit depends on the order of traversal, as the guide allows
 /// (guide 13.4); that order is the same in every run.
 ///
-/// Watertight within a GAS: see `primitive/triangle/test.rs`. Between instances nothing is promised, as in OptiX, because each has a
+/// Watertight within a GAS: see `primitive/triangle/intersect.rs`. Between instances nothing is promised, as in OptiX, because each has a
 /// ray of its own.
 ///
 /// It is compiled once, here, and calls the programs through a table, so that it is as fast from other crates as it is from this
@@ -82,7 +82,7 @@ impl<'a> Task for AtRoot<'_, 'a> {
         match accel {
             Accel::Gas(gas) => {
                 let sink = Sink { gas, place, path, state: &mut *state };
-                simd.run(AtGas { sink, programs, far: false });
+                simd.run(LeafRay { sink, programs, far: false });
             }
             Accel::Ias(ias) => AtIas { ias, place, state, path, programs }.run(simd),
         }
@@ -119,26 +119,19 @@ fn narrow([x, y, z]: [f64; 3]) -> [f32; 3] {
 }
 
 /// Traversal of a geometry acceleration structure.
-pub struct AtGas<'t, 'a> {
-    pub sink: Sink<'t, 'a>,
-    pub programs: &'t mut dyn Programs,
-    /// Whether differences of coordinates may overflow.
-    pub far: bool,
-}
-
-impl Task for AtGas<'_, '_> {
+impl Task for LeafRay<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         match &self.sink.gas.primitives {
             Primitives::Triangles(triangles) => self.traverse(simd, triangles),
-            Primitives::Custom(boxes) => self.traverse(simd, boxes),
+            Primitives::Custom(custom) => self.traverse(simd, custom),
         }
     }
 }
 
-impl AtGas<'_, '_> {
+impl LeafRay<'_, '_> {
     #[inline(always)]
     fn traverse<S: Simd>(mut self, simd: S, leaves: &impl Leaves) {
         let (bvh, frame) = (&self.sink.gas.bvh, &self.sink.place.space.frame);
@@ -203,7 +196,7 @@ impl Task for AtIas<'_, '_> {
             match &*instance.child {
                 Accel::Gas(gas) => {
                     let sink = Sink { gas, place, path, state: &mut *state };
-                    simd.run(AtGas { sink, programs: &mut *programs, far: false });
+                    simd.run(LeafRay { sink, programs: &mut *programs, far: false });
                 }
                 Accel::Ias(ias) => {
                     simd.run(AtIas { ias, place, state: &mut *state, path: &mut *path, programs: &mut *programs });

@@ -1,16 +1,17 @@
-//! The kinds of primitives that leaves hold, a file or folder each: the build input and its checks, how it is packed, what a ray
-//! does in a leaf, and what programs ask of a primitive afterwards.
+//! The kinds of primitives that leaves hold, a file or folder each: how they are packed, what a ray does in a leaf, and what
+//! programs ask of a primitive afterwards.
 //!
-//! A new kind is a file that implements [`Leaves`], a variant of [`Primitives`], and a constructor of [`Gas`](super::Gas). What
-//! becomes of a hit is not its business: it offers what it finds to the [`Sink`](super::candidate::Sink).
+//! A new kind is a file that implements [`Leaves`], and a variant of [`Primitives`]. What becomes of a hit is not its business: it
+//! offers what it finds to the [`Sink`](super::candidate::Sink).
 
 pub mod custom;
 pub mod triangle;
 
 use super::bvh::Bvh;
+use super::candidate::Sink;
+use super::program::Programs;
 use super::simd::Simd;
-use super::trace::AtGas;
-use crate::geometry::GasInputs;
+use crate::geometry::{BuildInput, GasInputs, PrimitiveArray};
 use custom::Custom;
 use triangle::Triangles;
 
@@ -24,15 +25,13 @@ pub enum Primitives {
 impl Primitives {
     /// Packs primitives, with a hierarchy over them.
     pub fn build(inputs: GasInputs) -> (Bvh, Self) {
+        fn packed<L: Leaves>(inputs: Vec<BuildInput<L::Array>>, kind: fn(L) -> Primitives) -> (Bvh, Primitives) {
+            let (bvh, leaves) = L::build(inputs);
+            (bvh, kind(leaves))
+        }
         match inputs {
-            GasInputs::Triangles(inputs) => {
-                let (bvh, triangles) = Triangles::build(inputs);
-                (bvh, Self::Triangles(triangles))
-            }
-            GasInputs::Custom(inputs) => {
-                let (bvh, custom) = Custom::build(inputs);
-                (bvh, Self::Custom(custom))
-            }
+            GasInputs::Triangles(inputs) => packed(inputs, Self::Triangles),
+            GasInputs::Custom(inputs) => packed(inputs, Self::Custom),
         }
     }
 
@@ -45,12 +44,29 @@ impl Primitives {
     }
 }
 
-/// What a ray does in the leaves of a structure.
-pub trait Leaves {
+/// A ray in the space of a structure of primitives.
+pub struct LeafRay<'t, 'a> {
+    pub sink: Sink<'t, 'a>,
+    pub programs: &'t mut dyn Programs,
+    /// Whether differences of coordinates may overflow.
+    pub far: bool,
+}
+
+/// Primitives of one kind, packed in the leaves of a structure.
+pub trait Leaves: Sized {
+    /// What they are built of.
+    type Array: PrimitiveArray;
+
+    /// Packs primitives, with a hierarchy over them.
+    fn build(inputs: Vec<BuildInput<Self::Array>>) -> (Bvh, Self);
+
+    /// Heap bytes, with those of the inputs.
+    fn memory_bytes(&self) -> usize;
+
     /// Tests what the leaf with this payload holds, at depths of at most `limit`. Gives the new limit: negative infinity if the ray
     /// has ended.
-    fn visit<S: Simd>(&self, simd: S, ray: &mut AtGas<'_, '_>, leaf: u32, limit: f32) -> f32;
+    fn visit<S: Simd>(&self, simd: S, ray: &mut LeafRay<'_, '_>, leaf: u32, limit: f32) -> f32;
 
     /// Tests all primitives of a structure that has no nodes.
-    fn visit_all<S: Simd>(&self, simd: S, ray: &mut AtGas<'_, '_>, limit: f32);
+    fn visit_all<S: Simd>(&self, simd: S, ray: &mut LeafRay<'_, '_>, limit: f32);
 }

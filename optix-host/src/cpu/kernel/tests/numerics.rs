@@ -2,9 +2,9 @@
 
 use std::cmp::Ordering;
 
+use super::super::bvh::SINGLE_LEAF;
 use super::super::bvh::{Bvh, Lanes};
-use super::super::collapse::SINGLE_LEAF;
-use super::super::primitive::triangle::test::{self as triangle, Block, Sheared, TriangleHit, edge};
+use super::super::primitive::triangle::intersect::{self as triangle, Block, Sheared, TriangleHit, edge};
 use super::super::ray::{Axis, BoxRay, Frame, ShearRay};
 use super::super::simd::Task;
 use super::*;

@@ -1,19 +1,21 @@
 //! Triangles.
 
-pub mod test;
+pub mod intersect;
+mod simd;
 
-use super::Leaves;
-use crate::cpu::kernel::aabb::Aabb;
-use crate::cpu::kernel::bvh::{Bvh, WIDTH};
+pub use simd::TriangleSimd;
+
+use super::{LeafRay, Leaves, Primitives};
+use crate::cpu::kernel::bvh::{Aabb, Bvh, Shape, WIDTH};
 use crate::cpu::kernel::candidate::Offer;
-use crate::cpu::kernel::collapse::Shape;
 use crate::cpu::kernel::flags::Verdict;
+use crate::cpu::kernel::gas::Gas;
+use crate::cpu::kernel::program::{Candidate, Hit};
 use crate::cpu::kernel::ray::{SHRINK, ShearRay};
 use crate::cpu::kernel::simd::Simd;
-use crate::cpu::kernel::trace::AtGas;
 use crate::geometry::{BuildInput, PrimitiveArray, TriangleArray};
 use glam::DVec3;
-use test::{Block, Sheared, TriangleHit};
+use intersect::{Block, Sheared, TriangleHit};
 
 /// Hit kinds of triangles (`OptixHitKind`).
 pub const FRONT_FACE: u8 = 254;
@@ -45,9 +47,17 @@ pub struct Triangles {
     inputs: Vec<BuildInput<TriangleArray>>,
 }
 
-impl Triangles {
-    /// Packs triangles in blocks, which are the leaves of a hierarchy.
-    pub fn build(inputs: Vec<BuildInput<TriangleArray>>) -> (Bvh, Self) {
+/// Whether the corners span a triangle.
+fn has_area(corners: &[[f32; 3]; 3]) -> bool {
+    let [a, b, c] = corners.map(|corner| DVec3::from_array(corner.map(f64::from)));
+    (b - a).cross(c - a) != DVec3::ZERO
+}
+
+impl Leaves for Triangles {
+    type Array = TriangleArray;
+
+    /// A leaf is a block.
+    fn build(inputs: Vec<BuildInput<TriangleArray>>) -> (Bvh, Self) {
         let triangles: Vec<[[f32; 3]; 3]> = inputs
             .iter()
             .flat_map(|input| (0..input.primitives().len()).map(|i| input.primitives().triangle(i)))
@@ -68,49 +78,27 @@ impl Triangles {
         (bvh, Self { blocks, inputs })
     }
 
-    /// The corners of a triangle of an input: NaN for one without area.
-    pub fn vertices(&self, input: usize, local: usize) -> Option<[[f32; 3]; 3]> {
-        let triangles = self.inputs[input].primitives();
-        let corners = (local < triangles.len()).then(|| triangles.triangle(local))?;
-        Some(if has_area(&corners) { corners } else { [[f32::NAN; 3]; 3] })
-    }
-
-    /// The corners of the triangle in a lane of a block; see [`Found::slot`](crate::cpu::kernel::state::Found::slot).
-    #[inline]
-    pub fn in_slot(&self, slot: u32) -> Option<[[f32; 3]; 3]> {
-        Some(self.blocks.get(slot as usize / WIDTH)?.triangle(slot as usize % WIDTH))
-    }
-
-    /// Heap bytes.
-    pub fn memory_bytes(&self) -> usize {
+    fn memory_bytes(&self) -> usize {
         let inputs = self.inputs.iter().map(|input| {
             let triangles = input.primitives();
             size_of_val(triangles.vertices()) + triangles.indices().map_or(0, size_of_val)
         });
         size_of_val(&self.blocks[..]) + inputs.sum::<usize>()
     }
-}
 
-/// Whether the corners span a triangle.
-fn has_area(corners: &[[f32; 3]; 3]) -> bool {
-    let [a, b, c] = corners.map(|corner| DVec3::from_array(corner.map(f64::from)));
-    (b - a).cross(c - a) != DVec3::ZERO
-}
-
-impl Leaves for Triangles {
     #[inline(always)]
-    fn visit<S: Simd>(&self, simd: S, ray: &mut AtGas<'_, '_>, leaf: u32, limit: f32) -> f32 {
+    fn visit<S: Simd>(&self, simd: S, ray: &mut LeafRay<'_, '_>, leaf: u32, limit: f32) -> f32 {
         let (index, used) = block_of(leaf);
-        ray.block(simd, &self.blocks[index], index, used, limit)
+        self.visit_block(simd, ray, index, used, limit)
     }
 
     #[inline(always)]
-    fn visit_all<S: Simd>(&self, simd: S, ray: &mut AtGas<'_, '_>, mut limit: f32) {
+    fn visit_all<S: Simd>(&self, simd: S, ray: &mut LeafRay<'_, '_>, mut limit: f32) {
         let mut left = ray.sink.gas.primitive_count();
-        for (index, block) in self.blocks.iter().enumerate() {
+        for index in 0..self.blocks.len() {
             let used = (1 << left.min(WIDTH)) - 1;
             left -= left.min(WIDTH);
-            limit = ray.block(simd, block, index, used, limit);
+            limit = self.visit_block(simd, ray, index, used, limit);
             if limit == f32::NEG_INFINITY {
                 return;
             }
@@ -118,64 +106,111 @@ impl Leaves for Triangles {
     }
 }
 
-impl AtGas<'_, '_> {
+impl Triangles {
     /// Tests the triangles of a block that `used` has a bit for. Gives the new limit of depth, as [`Leaves::visit`] does.
     #[inline(always)]
-    fn block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) -> f32 {
-        let (frame, before) = (&self.sink.place.space.frame, self.sink.state.tmax);
-        if self.far {
-            self.far_block(simd, block, index, used, limit);
+    fn visit_block<S: Simd>(&self, simd: S, ray: &mut LeafRay<'_, '_>, index: usize, used: u32, limit: f32) -> f32 {
+        let (block, frame, before) = (&self.blocks[index], &ray.sink.place.space.frame, ray.sink.state.tmax);
+        if ray.far {
+            visit_far_block(simd, ray, block, index, used, limit);
         } else {
-            self.meet(simd, block, &frame.shear, [frame.depth_min, limit], index, used);
+            test_block(simd, ray, block, &frame.shear, [frame.depth_min, limit], index, used);
         }
-        self.sink.state.limit(before, limit, frame)
+        ray.sink.state.limit(before, limit, frame)
     }
+}
 
-    /// [`AtGas::block`] where coordinates are so large that it is done with smaller ones.
-    #[cold]
-    #[inline(never)]
-    fn far_block<S: Simd>(&mut self, simd: S, block: &Block, index: usize, used: u32, limit: f32) {
-        let frame = &self.sink.place.space.frame;
-        let depths = [frame.depth_min * SHRINK, limit * SHRINK];
-        self.meet(simd, &block.shrunk(), &frame.shear.shrunk(), depths, index, used);
-    }
+/// [`Triangles::visit_block`] where coordinates are so large that it is done with smaller ones.
+#[cold]
+#[inline(never)]
+fn visit_far_block<S: Simd>(simd: S, ray: &mut LeafRay<'_, '_>, block: &Block, index: usize, used: u32, limit: f32) {
+    let frame = &ray.sink.place.space.frame;
+    let depths = [frame.depth_min * SHRINK, limit * SHRINK];
+    test_block(simd, ray, &block.shrunk(), &frame.shear.shrunk(), depths, index, used);
+}
 
-    /// Decides about the triangles of a block that `used` has a bit for.
-    #[inline(always)]
-    fn meet<S: Simd>(&mut self, simd: S, block: &Block, shear: &ShearRay, depths: [f32; 2], index: usize, used: u32) {
-        let mut sheared = Sheared::default();
-        let mut lanes = simd.triangles(block, shear, depths, &mut sheared) & used;
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize & (WIDTH - 1);
-            lanes &= lanes - 1;
-            let Some(hit) = test::hit(shear, test::lane_of(&sheared, lane)) else { continue };
-            let primitive = block.primitives[lane];
-            if self.sink.admits(hit.t, primitive) {
-                self.offer(hit, primitive, (index * WIDTH + lane) as u32);
-                if self.sink.state.ended {
-                    return;
-                }
+/// Decides about the triangles of a block that `used` has a bit for.
+#[inline(always)]
+fn test_block<S: Simd>(
+    simd: S,
+    ray: &mut LeafRay<'_, '_>,
+    block: &Block,
+    shear: &ShearRay,
+    depths: [f32; 2],
+    index: usize,
+    used: u32,
+) {
+    let mut sheared = Sheared::default();
+    let mut lanes = simd.triangles(block, shear, depths, &mut sheared) & used;
+    while lanes != 0 {
+        let lane = lanes.trailing_zeros() as usize & (WIDTH - 1);
+        lanes &= lanes - 1;
+        let Some(hit) = intersect::hit(shear, intersect::lane_of(&sheared, lane)) else { continue };
+        let primitive = block.primitives[lane];
+        if ray.sink.admits(hit.t, primitive) {
+            offer(ray, hit, primitive, (index * WIDTH + lane) as u32);
+            if ray.sink.state.ended {
+                return;
             }
         }
     }
+}
 
-    /// Offers a hit that the interval admits, unless flags hide the triangle.
+/// Offers a hit that the interval admits, unless flags hide the triangle.
+#[inline]
+fn offer(ray: &mut LeafRay<'_, '_>, hit: TriangleHit, primitive: u32, slot: u32) {
+    let record = ray.sink.gas.record_of(primitive);
+    let verdict = ray.sink.verdict(record);
+    if verdict == Verdict::Cull {
+        return;
+    }
+    let Some(front) = ray.sink.facing(record, hit.front) else { return };
+    let offer = Offer {
+        t: hit.t,
+        hit_kind: if front { FRONT_FACE } else { BACK_FACE },
+        attributes: [hit.u.to_bits(), hit.v.to_bits(), 0, 0, 0, 0, 0, 0],
+        primitive,
+        record,
+        slot,
+    };
+    ray.sink.take(offer, verdict, ray.programs);
+}
+
+impl Gas {
+    /// The corners, in object space, of the triangle with this reported primitive index in the build input that
+    /// `sbt_gas_index` belongs to (guide 13.9): NaN for one without area. `None` if there is none, or if these are other
+    /// primitives.
+    pub fn triangle_vertices(&self, sbt_gas_index: u32, primitive_index: u32) -> Option<[[f32; 3]; 3]> {
+        let Primitives::Triangles(triangles) = &self.primitives else { return None };
+        let (input, local) = self.locate(sbt_gas_index, primitive_index)?;
+        let array = triangles.inputs[input].primitives();
+        let corners = (local < array.len()).then(|| array.triangle(local))?;
+        Some(if has_area(&corners) { corners } else { [[f32::NAN; 3]; 3] })
+    }
+
+    /// The corners of the triangle in a lane of a block; see [`Found::slot`](crate::cpu::kernel::state::Found::slot).
     #[inline]
-    fn offer(&mut self, hit: TriangleHit, primitive: u32, slot: u32) {
-        let record = self.sink.gas.record_of(primitive);
-        let verdict = self.sink.verdict(record);
-        if verdict == Verdict::Cull {
-            return;
-        }
-        let Some(front) = self.sink.facing(record, hit.front) else { return };
-        let offer = Offer {
-            t: hit.t,
-            hit_kind: if front { FRONT_FACE } else { BACK_FACE },
-            attributes: [hit.u.to_bits(), hit.v.to_bits(), 0, 0, 0, 0, 0, 0],
-            primitive,
-            record,
-            slot,
-        };
-        self.sink.take(offer, verdict, self.programs);
+    fn triangle_in(&self, slot: u32) -> Option<[[f32; 3]; 3]> {
+        let Primitives::Triangles(triangles) = &self.primitives else { return None };
+        Some(triangles.blocks.get(slot as usize / WIDTH)?.triangle(slot as usize % WIDTH))
+    }
+}
+
+impl Candidate<'_> {
+    /// The corners of the triangle, in object space; `None` for another primitive.
+    pub fn triangle_vertices(&self) -> Option<[[f32; 3]; 3]> {
+        self.site.gas.triangle_in(self.slot)
+    }
+}
+
+impl Hit<'_> {
+    /// The weights of a triangle's second and third corner.
+    pub fn barycentrics(&self) -> [f32; 2] {
+        [self.attributes[0], self.attributes[1]].map(f32::from_bits)
+    }
+
+    /// The corners of the triangle that was hit, in object space; `None` for another primitive.
+    pub fn triangle_vertices(&self) -> Option<[[f32; 3]; 3]> {
+        self.gas.triangle_in(self.slot)
     }
 }

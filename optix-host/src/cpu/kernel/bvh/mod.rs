@@ -1,8 +1,14 @@
 //! The 8-wide bounding volume hierarchy and its memory layout.
 
-use super::aabb::Aabb;
-use super::binary::Binary;
-use super::collapse::{Plan, Shape};
+mod aabb;
+mod binary;
+mod collapse;
+
+pub use aabb::Aabb;
+pub use collapse::{SINGLE_LEAF, Shape};
+
+use binary::Binary;
+use collapse::Plan;
 
 /// Children of a node, and lanes of a block of triangles.
 pub const WIDTH: usize = 8;

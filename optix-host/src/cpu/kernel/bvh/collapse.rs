@@ -4,9 +4,9 @@
 //! Wide BVHs" (HPG 2017), section 4.1: `cost(n, i)` is the least cost of the subtree `n` as a forest of at most `i`
 //! wide trees.
 
+use super::WIDTH;
 use super::aabb::Aabb;
 use super::binary::{Binary, Link};
-use super::bvh::WIDTH;
 
 /// What a leaf may hold, and what it costs against visiting a node.
 #[derive(Clone, Copy, Debug)]
