@@ -1,5 +1,6 @@
 //! What can go wrong, each with what to do about it.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::path::PathBuf;
 use std::process::ExitStatus;
@@ -9,7 +10,7 @@ use crate::messages::{NeedsStd, OfStd};
 use crate::missing::Culprit;
 use crate::ptx;
 
-/// Why a shader crate was not compiled. `Display` is one line: what is wrong and what to do.
+/// Why a shader crate was not compiled. `Display` is one line: what is wrong, and after a semicolon [what to do](Self::remedy).
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Error {
@@ -34,14 +35,14 @@ pub enum Error {
         /// The folder.
         path: PathBuf,
         /// What it lacks.
-        reason: String,
+        lacks: Lacking,
     },
     /// The device build would not be made from what the user's own build is made from.
     Differs {
         /// The shader crate.
         package: String,
-        /// What differs, each in words.
-        differences: Vec<String>,
+        /// What differs.
+        differences: Vec<Difference>,
     },
     /// A crate needs the standard library.
     NeedsStd(NeedsStd),
@@ -78,11 +79,17 @@ pub enum Error {
     },
     /// No libNVVM on this machine does.
     #[cfg(feature = "nvvm")]
-    NoNvvm(String),
+    NoNvvm(crate::nvvm::NoLibrary),
+    /// The shader crate needs libdevice, and the libNVVM that is used comes without it.
+    #[cfg(feature = "nvvm")]
+    NoLibdevice {
+        /// The libNVVM.
+        library: PathBuf,
+    },
     /// libdevice was asked for, and the code generator is one that can't link it.
     Libdevice,
     /// No `rustc_codegen_nvvm` on this machine does.
-    NoRustCuda(String),
+    NoRustCuda(crate::rust_cuda::Unusable),
     /// libNVVM has failed.
     #[cfg(feature = "nvvm")]
     Nvvm(crate::nvvm::Failure),
@@ -105,61 +112,178 @@ pub enum Error {
     },
 }
 
-impl fmt::Display for Error {
+/// What a folder lacks that is to be a shader crate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Lacking {
+    /// The folder itself is not there.
+    Folder,
+    /// It has no `Cargo.toml`.
+    Manifest,
+    /// Its `Cargo.toml` is of a workspace alone.
+    Package,
+    /// The package has no library.
+    Library,
+}
+
+impl Lacking {
+    fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Folder => ("there is no such folder", "name the folder of the shader crate's Cargo.toml"),
+            Self::Manifest => ("it has no Cargo.toml", "name the folder of the shader crate's Cargo.toml"),
+            Self::Package => ("its Cargo.toml is no package", "name the folder of a package, not of its workspace"),
+            Self::Library => ("it has no library", "its code belongs into src/lib.rs"),
+        }
+    }
+}
+
+/// What differs between the host's build of a shader crate and the device build.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Difference {
+    /// A feature of the shader crate that only one of the two has.
+    Feature {
+        /// The feature.
+        feature: String,
+        /// Whether it is the device build.
+        on_device: bool,
+    },
+    /// The device build does not have the shader crate.
+    NotOnDevice {
+        /// The shader crate.
+        package: String,
+    },
+    /// A dependency of another version or source.
+    Package {
+        /// Its name.
+        package: String,
+        /// Version and source for the host; none if it is not used there.
+        host: Option<String>,
+        /// Version and source for the device.
+        device: String,
+    },
+    /// A dependency with other features.
+    Features {
+        /// Its name.
+        package: String,
+        /// Those for the host; none if it is not compiled there.
+        host: Option<Vec<String>>,
+        /// Those for the device.
+        device: Vec<String>,
+    },
+}
+
+impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let list = |features: &[String]| format!("[{}]", features.join(", "));
+        match self {
+            Self::Feature { feature, on_device: true } => {
+                write!(f, "its feature `{feature}` is on on the device, by the build script, only")
+            }
+            Self::Feature { feature, on_device: false } => {
+                write!(f, "its feature `{feature}` is on in the program that is built only")
+            }
+            Self::NotOnDevice { package } => write!(f, "`{package}` is not in the device build"),
+            Self::Package { package, host, device } => {
+                let host = host.as_deref().unwrap_or("not used");
+                write!(f, "`{package}` is {host} there and {device} on the device")
+            }
+            Self::Features { package, host, device } => {
+                let host = host.as_deref().map_or("not compiled".into(), list);
+                write!(f, "the features of `{package}` are {host} there and {} on the device", list(device))
+            }
+        }
+    }
+}
+
+impl Error {
+    /// What is wrong, and what to do about it; nothing where the first says so itself.
+    fn words(&self) -> (String, Cow<'static, str>) {
         match self {
             Self::NoDeviceCompiler { rejected } => {
-                write!(f, "no device compiler, that is a rustc {MINIMUM} or newer with its library sources (")?;
-                for (i, one) in rejected.iter().enumerate() {
-                    write!(f, "{}{one}", if i == 0 { "" } else { "; " })?;
-                }
-                f.write_str(if rejected.is_empty() {
-                    "no rustc found); run `cargo optix setup`"
-                } else {
-                    "); run `cargo optix setup`"
-                })
+                let rejected: Vec<_> = rejected.iter().map(Rejected::to_string).collect();
+                let rejected = if rejected.is_empty() { "no rustc found".into() } else { rejected.join("; ") };
+                (
+                    format!(
+                        "no device compiler, that is a rustc {MINIMUM} or newer with its library sources ({rejected})"
+                    ),
+                    "run `cargo optix setup`".into(),
+                )
             }
-            Self::SwitchedOff => f.write_str("OPTIX_RUSTC=none switches device code off; unset it to compile it"),
+            Self::SwitchedOff => ("OPTIX_RUSTC=none switches device code off".into(), "unset it to compile it".into()),
             Self::ChosenCompiler(rejected) => {
-                write!(f, "OPTIX_RUSTC can't compile shaders: {rejected}; unset it, or name a rustc that can")
+                (format!("OPTIX_RUSTC can't compile shaders: {rejected}"), "unset it, or name a rustc that can".into())
             }
-            Self::UnknownArch { arch, known } => {
-                write!(f, "the device compiler has no architecture `{arch}`; it has {}", known.join(", "))
-            }
-            Self::NotAShaderCrate { path, reason } => {
-                write!(f, "{} is no shader crate: {reason}", path.display())
-            }
-            Self::Differs { package, differences } => write!(
-                f,
-                "host and device would run different code of `{package}`: {}; \"there\" is the workspace that the program is built \
-                 in. Say what makes the difference in a place that every cargo reads: Cargo.toml, Cargo.lock, or \
-                 .cargo/config.toml of the workspace",
-                differences.join("; ")
+            Self::UnknownArch { arch, known } => (
+                format!("the device compiler has no architecture `{arch}`"),
+                format!("it has {}", known.join(", ")).into(),
             ),
-            Self::NeedsStd(needs_std) => write!(f, "{needs_std}"),
-            Self::OfStd { package, of_std } => write!(f, "`{package}` uses {of_std}"),
-            Self::Missing(culprit) => write!(f, "{culprit}"),
+            Self::NotAShaderCrate { path, lacks } => {
+                let (problem, remedy) = lacks.words();
+                (format!("{} is no shader crate: {problem}", path.display()), remedy.into())
+            }
+            Self::Differs { package, differences } => {
+                let differences: Vec<_> = differences.iter().map(Difference::to_string).collect();
+                (
+                    format!(
+                        "host and device would run different code of `{package}`: {} (\"there\" is the workspace that the \
+                         program is built in)",
+                        differences.join("; ")
+                    ),
+                    "say what makes the difference in a place that every cargo reads: Cargo.toml, Cargo.lock, or \
+                     .cargo/config.toml of the workspace"
+                        .into(),
+                )
+            }
+            Self::NeedsStd(needs_std) => (needs_std.problem(), needs_std.remedy().into()),
+            Self::OfStd { package, of_std } => (
+                format!(
+                    "`{package}` uses `{}`, which is of the standard library; the device has `core` alone",
+                    of_std.name
+                ),
+                of_std.instead.into(),
+            ),
+            Self::Missing(culprit) => (culprit.problem(), culprit.what.remedy().into()),
             Self::Step { doing, status } | Self::Aborted { doing, status } => {
-                write!(f, "{doing} failed ({status}); its own messages say why")
+                (format!("{doing} failed ({status})"), "its own messages say why".into())
             }
-            Self::Ptx { path, problem } => write!(f, "{}: {problem}", path.display()),
+            Self::Ptx { path, problem } => (format!("{}: {problem}", path.display()), "".into()),
             #[cfg(feature = "nvvm")]
-            Self::NoNvvm(reason) => {
-                write!(f, "no libNVVM ({reason}); run `cargo optix setup --nvvm`, or name one by OPTIX_NVVM")
+            Self::NoNvvm(rejected) => {
+                (format!("no libNVVM ({rejected})"), "run `cargo optix setup --nvvm`, or name one by OPTIX_NVVM".into())
             }
-            Self::Libdevice => f.write_str(
-                "only libNVVM links libdevice: choose it (`--codegen nvvm`, `Codegen::Nvvm`), or leave `libdevice` off",
+            #[cfg(feature = "nvvm")]
+            Self::NoLibdevice { library } => (
+                format!("there is no libdevice.10.bc beside {}", library.display()),
+                "run `cargo optix setup --nvvm`, or name a libNVVM of a CUDA toolkit by OPTIX_NVVM".into(),
             ),
-            Self::NoRustCuda(reason) => {
-                write!(f, "no code generator rustc_codegen_nvvm: {reason}; {}", crate::rust_cuda::INSTALL)
+            Self::Libdevice => (
+                "only libNVVM links libdevice".into(),
+                "choose it (`--codegen nvvm`, `Codegen::Nvvm`), or leave `libdevice` off".into(),
+            ),
+            Self::NoRustCuda(unusable) => {
+                (format!("no code generator rustc_codegen_nvvm: {unusable}"), crate::rust_cuda::INSTALL.into())
             }
             #[cfg(feature = "nvvm")]
-            Self::Nvvm(failure) => write!(f, "{failure}"),
+            Self::Nvvm(failure) => (failure.to_string(), "".into()),
             #[cfg(feature = "nvvm")]
-            Self::Refused(refusal) => write!(f, "{refusal}"),
-            Self::Output { of, reason } => write!(f, "unexpected output of {of}: {reason}"),
-            Self::Io { doing, source } => write!(f, "{doing}: {source}"),
+            Self::Refused(refusal) => (refusal.to_string(), "".into()),
+            Self::Output { of, reason } => (format!("unexpected output of {of}: {reason}"), "".into()),
+            Self::Io { doing, source } => (format!("{doing}: {source}"), "".into()),
         }
+    }
+
+    /// What to do about it, where that is known and not the program's own to say.
+    pub fn remedy(&self) -> Option<Cow<'static, str>> {
+        Some(self.words().1).filter(|remedy| !remedy.is_empty())
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (problem, remedy) = self.words();
+        f.write_str(&problem)?;
+        if remedy.is_empty() { Ok(()) } else { write!(f, "; {remedy}") }
     }
 }
 

@@ -73,7 +73,7 @@ mod wrapper;
 pub use cache::cache;
 pub use compiler::{Candidate, DeviceCompiler, MINIMUM, Rejected, Release, Why};
 pub use device_build::Built;
-pub use error::Error;
+pub use error::{Difference, Error, Lacking};
 pub use messages::{NeedsStd, OfStd};
 pub use metadata::{Package, Workspace};
 pub use missing::{Culprit, Missing, SourceLocation};

@@ -87,12 +87,6 @@ impl OfStd {
     }
 }
 
-impl fmt::Display for OfStd {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}`, which is of the standard library; the device has `core` alone: {}", self.name, self.instead)
-    }
-}
-
 /// A crate that can't be compiled for the device because it needs the standard library.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NeedsStd {
@@ -119,25 +113,29 @@ impl NeedsStd {
     }
 }
 
+impl NeedsStd {
+    /// What is wrong.
+    pub fn problem(&self) -> String {
+        let feature = self.feature.as_ref().map_or(String::new(), |feature| format!(", for its feature `{feature}`"));
+        let way = if self.way.len() > 2 { format!(" ({})", self.way.join(" uses ")) } else { String::new() };
+        format!("`{}` needs the standard library, which the device does not have{feature}{way}", self.package)
+    }
+
+    /// What to do about it.
+    pub fn remedy(&self) -> String {
+        match &self.way[..] {
+            [_, dependency, ..] => format!(
+                "take `{dependency}` with `default-features = false`, or another crate, or use it on the host only: \
+                 `[target.'cfg(not(target_arch = \"nvptx64\"))'.dependencies]`"
+            ),
+            _ => "put `#![no_std]` at the top of its src/lib.rs, and take from `core` what it takes from `std`".into(),
+        }
+    }
+}
+
 impl fmt::Display for NeedsStd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}` needs the standard library, which the device does not have", self.package)?;
-        if let Some(feature) = &self.feature {
-            write!(f, ", for its feature `{feature}`")?;
-        }
-        let [_, dependency, ..] = &self.way[..] else {
-            return f.write_str(
-                "; put `#![no_std]` at the top of its src/lib.rs, and take from `core` what it takes from `std`",
-            );
-        };
-        if self.way.len() > 2 {
-            write!(f, " ({})", self.way.join(" uses "))?;
-        }
-        write!(
-            f,
-            "; take `{dependency}` with `default-features = false`, or another crate, or use it on the host only: \
-             `[target.'cfg(not(target_arch = \"nvptx64\"))'.dependencies]`"
-        )
+        write!(f, "{}; {}", self.problem(), self.remedy())
     }
 }
 

@@ -59,36 +59,31 @@ impl fmt::Display for SourceLocation {
     }
 }
 
-impl fmt::Display for Culprit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Culprit {
+    /// What is wrong, and where.
+    pub fn problem(&self) -> String {
         let Self { what, at, from } = self;
-        match what {
-            Missing::Heap => write!(f, "the device has no heap, and {at} allocates")?,
-            Missing::Function(name) => write!(f, "nothing on the device defines `{name}`, which {at} calls")?,
-            Missing::Pointers => write!(f, "OptiX does not call functions through pointers, as {at} does")?,
+        let problem = match what {
+            Missing::Heap => format!("the device has no heap, and {at} allocates"),
+            Missing::Function(name) => format!("nothing on the device defines `{name}`, which {at} calls"),
+            Missing::Pointers => format!("OptiX does not call functions through pointers, as {at} does"),
             Missing::Recursion => {
-                write!(f, "OptiX does not let a recursive function call device functions, as {at} does")?
+                format!("OptiX does not let a recursive function call device functions, as {at} does")
             }
             Missing::WideConversion => {
-                write!(f, "the device can't convert between floats and 128-bit integers, as {at} does")?
+                format!("the device can't convert between floats and 128-bit integers, as {at} does")
             }
+        };
+        match from {
+            Some(from) => format!("{problem}, for {from}"),
+            None => problem,
         }
-        if let Some(from) = from {
-            write!(f, ", for {from}")?;
-        }
-        f.write_str(match what {
-            Missing::Heap => {
-                "; use arrays or collections of fixed size, or pass a view of a buffer that the host allocates"
-            }
-            Missing::Function(_) => {
-                "; use another function, or `#[cfg(not(target_arch = \"nvptx64\"))]` where only the host calls it"
-            }
-            Missing::Pointers => {
-                "; use generics, an enum or a callable in place of a `dyn` object or `fn` pointer, and format nothing"
-            }
-            Missing::Recursion => "; use a loop",
-            Missing::WideConversion => "; convert by way of 64 bits",
-        })
+    }
+}
+
+impl fmt::Display for Culprit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}; {}", self.problem(), self.what.remedy())
     }
 }
 
@@ -108,6 +103,21 @@ pub(crate) fn culprit(ir: &str, missing: &[Missing], packages: &[Package], own: 
 }
 
 impl Missing {
+    /// What to do about it.
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::Heap => "use arrays or collections of fixed size, or pass a view of a buffer that the host allocates",
+            Self::Function(_) => {
+                "use another function, or `#[cfg(not(target_arch = \"nvptx64\"))]` where only the host calls it"
+            }
+            Self::Pointers => {
+                "use generics, an enum or a callable in place of a `dyn` object or `fn` pointer, and format nothing"
+            }
+            Self::Recursion => "use a loop",
+            Self::WideConversion => "convert by way of 64 bits",
+        }
+    }
+
     /// What an unresolved symbol in PTX stands for.
     pub(crate) fn of_symbol(symbol: &str) -> Self {
         if symbol == NO_HEAP { Self::Heap } else { Self::Function(symbol.to_string()) }

@@ -3,7 +3,9 @@
 
 use std::path::PathBuf;
 
-pub use optix_nvvm::{Dialect, Failure, Library, PtxVersion, Refusal, Translated, libdevice, translate};
+pub use optix_nvvm::{
+    Dialect, Failure, Library, NoLibrary, PtxVersion, Refusal, Rejected, Translated, Why, libdevice, translate,
+};
 
 use crate::cache::cache;
 use crate::error::{Doing, Error};
@@ -15,7 +17,7 @@ pub fn libraries() -> Vec<PathBuf> {
 }
 
 /// The libNVVM to use: [`optix_nvvm::choose`].
-pub fn choose() -> Result<Library, String> {
+pub fn choose() -> Result<Library, NoLibrary> {
     optix_nvvm::choose(cache().as_deref())
 }
 
@@ -43,8 +45,7 @@ pub(crate) fn translated(shaders: &Shaders, ir: &str) -> Result<Translated, Erro
 /// Compiles a shader crate that was translated.
 pub(crate) fn ptx(library: &Library, shaders: &Shaders, module: &Translated) -> Result<String, Error> {
     let libdevice = if module.needs_libdevice {
-        let path = libdevice(&library.path)
-            .ok_or_else(|| Error::NoNvvm(format!("there is no libdevice.10.bc beside {}", library.path.display())))?;
+        let path = libdevice(&library.path).ok_or_else(|| Error::NoLibdevice { library: library.path.clone() })?;
         Some(std::fs::read(&path).doing(|| format!("cannot read {}", path.display()))?)
     } else {
         None

@@ -11,7 +11,7 @@ use std::process::Command;
 
 use crate::cargo::{self, Place};
 use crate::compiler::DeviceCompiler;
-use crate::error::Error;
+use crate::error::{Difference, Error, Lacking};
 use crate::metadata::{CRATES_IO, Package, Workspace};
 use crate::options::Shaders;
 use crate::outer::Outer;
@@ -36,10 +36,10 @@ impl Original {
     /// The workspace of the package that is being built if the shader crate is a part of that, otherwise the shader crate's own.
     pub fn find(shaders: &Shaders) -> Result<Self, Error> {
         let path = &shaders.path;
-        let not = |reason: &str| Error::NotAShaderCrate { path: path.to_path_buf(), reason: reason.to_string() };
-        let dir = std::fs::canonicalize(path).map_err(|_| not("there is no such folder"))?;
+        let not = |lacks| Error::NotAShaderCrate { path: path.to_path_buf(), lacks };
+        let dir = std::fs::canonicalize(path).map_err(|_| not(Lacking::Folder))?;
         if !dir.join("Cargo.toml").is_file() {
-            return Err(not("it has no Cargo.toml"));
+            return Err(not(Lacking::Manifest));
         }
         if let Some(outer) = &shaders.outer
             && let Some(found) = Self::of_outer(outer, shaders, &dir)?
@@ -61,7 +61,7 @@ impl Original {
         args.extend(is_locked.then(|| "--locked".to_string()));
         let args: Vec<&str> = args.iter().map(String::as_str).collect();
         let workspace = Workspace::with_dependencies(&place, &dir.join("Cargo.toml"), &args)?;
-        Self::new(place, workspace, &dir, is_locked).ok_or_else(|| not("its Cargo.toml is no package"))
+        Self::new(place, workspace, &dir, is_locked).ok_or_else(|| not(Lacking::Package))
     }
 
     /// In the workspace of the package that is being built. None: the shader crate is not a part of it.
@@ -177,13 +177,13 @@ impl Original {
         };
         if shaders.features.is_some() || shaders.default_features.is_some() {
             let chosen = self.shaders.with_implied(chosen());
-            let mut differences: Vec<String> = Vec::new();
-            let mut only = |these: &[String], those: &[String], on: &str| {
+            let mut differences = Vec::new();
+            let mut only = |these: &[String], those: &[String], on_device| {
                 let missing = these.iter().filter(|feature| !those.contains(feature));
-                differences.extend(missing.map(|feature| format!("its feature `{feature}` is on {on} only")));
+                differences.extend(missing.map(|feature| Difference::Feature { feature: feature.clone(), on_device }));
             };
-            only(&unit.features, &chosen, "in the program that is built");
-            only(&chosen, &unit.features, "on the device, by the build script,");
+            only(&unit.features, &chosen, false);
+            only(&chosen, &unit.features, true);
             if !differences.is_empty() {
                 return Err(Error::Differs { package: self.shaders.name.clone(), differences });
             }
@@ -208,9 +208,9 @@ impl Original {
     }
 
     /// How the graph of a device build differs. Empty: it is made from the same packages.
-    pub fn differences(&self, device: &Workspace) -> Vec<String> {
+    pub fn differences(&self, device: &Workspace) -> Vec<Difference> {
         let Some(shaders) = device.packages.iter().find(|package| package.is_same(&self.shaders)) else {
-            return vec![format!("`{}` is not in the device build", self.shaders.name)];
+            return vec![Difference::NotOnDevice { package: self.shaders.name.clone() }];
         };
         let mut differences = Vec::new();
         let mut pairs = vec![(&self.shaders, shaders)];
@@ -224,10 +224,10 @@ impl Original {
                     Some(their) if pairs.iter().any(|(_, seen)| seen.id == our.id) => _ = their,
                     Some(their) => pairs.push((their, our)),
                     None => {
-                        let their = linked.first().map_or("not used".to_string(), |their| their.origin());
-                        let text = format!("`{}` is {their} there and {} on the device", our.name, our.origin());
-                        if !differences.contains(&text) {
-                            differences.push(text);
+                        let host = linked.first().map(|their| their.origin());
+                        let difference = Difference::Package { package: our.name.clone(), host, device: our.origin() };
+                        if !differences.contains(&difference) {
+                            differences.push(difference);
                         }
                     }
                 }
@@ -238,7 +238,7 @@ impl Original {
     }
 
     /// How features differ between what cargo would compile of the shader crate in the user's workspace and in the device build's.
-    pub fn feature_differences(&self, theirs: &[Unit], device: &Workspace, ours: &[Unit]) -> Vec<String> {
+    pub fn feature_differences(&self, theirs: &[Unit], device: &Workspace, ours: &[Unit]) -> Vec<Difference> {
         let mut differences = Vec::new();
         for our in ours {
             let Some(package) = device.package(&our.package).filter(|p| !device.members.contains(&p.id)) else {
@@ -252,15 +252,13 @@ impl Original {
             if parts.iter().any(|their| their.features == our.features) {
                 continue;
             }
-            let list = |features: &[String]| format!("[{}]", features.join(", "));
-            let their = parts.first().map_or("not compiled".to_string(), |their| list(&their.features));
-            let text = format!(
-                "the features of `{}` are {their} there and {} on the device",
-                package.name,
-                list(&our.features)
-            );
-            if !differences.contains(&text) {
-                differences.push(text);
+            let difference = Difference::Features {
+                package: package.name.clone(),
+                host: parts.first().map(|their| their.features.clone()),
+                device: our.features.clone(),
+            };
+            if !differences.contains(&difference) {
+                differences.push(difference);
             }
         }
         differences
@@ -390,11 +388,15 @@ mod tests {
         Original { place, workspace, shaders, is_member: true, is_locked: true }
     }
 
+    fn words(differences: &[Difference]) -> String {
+        differences.iter().map(Difference::to_string).collect::<Vec<_>>().join("; ")
+    }
+
     #[test]
     fn other_packages_are_found() {
         let theirs = original("1.0.0", Some(CRATES_IO));
-        assert_eq!(theirs.differences(&workspace("1.0.0", Some(CRATES_IO))), [""; 0]);
-        let found = |version, source| theirs.differences(&workspace(version, source)).join("; ");
+        assert_eq!(theirs.differences(&workspace("1.0.0", Some(CRATES_IO))), []);
+        let found = |version, source| words(&theirs.differences(&workspace(version, source)));
         assert_eq!(
             found("1.0.1", Some(CRATES_IO)),
             "`number` is 1.0.0 of crates.io there and 1.0.1 of crates.io on the device"
@@ -408,7 +410,7 @@ mod tests {
         );
         let mut without = workspace("1.0.0", Some(CRATES_IO));
         without.packages.remove(0);
-        assert_eq!(theirs.differences(&without), ["`shaders` is not in the device build"]);
+        assert_eq!(words(&theirs.differences(&without)), "`shaders` is not in the device build");
     }
 
     #[test]
@@ -416,7 +418,7 @@ mod tests {
         let unit = |features: &[&str]| Unit::of("number", "lib", features);
         let theirs = original("1.0.0", Some(CRATES_IO));
         let device = workspace("1.0.0", Some(CRATES_IO));
-        let found = |ours: Unit| theirs.feature_differences(&[unit(&["fast"])], &device, &[ours]).join("; ");
+        let found = |ours: Unit| words(&theirs.feature_differences(&[unit(&["fast"])], &device, &[ours]));
         assert_eq!(found(unit(&["fast"])), "");
         assert_eq!(found(unit(&[])), "the features of `number` are [fast] there and [] on the device");
         assert_eq!(

@@ -3,10 +3,11 @@
 //! It is a library for one particular nightly `rustc`, which loads it in place of LLVM: it makes LLVM 7's IR of MIR and
 //! calls libNVVM itself. Which `rustc` it is for, it says by the name of the library that it is linked with.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::compiler::{Candidate, DeviceCompiler, LIBRARY_PATH, Release};
+use crate::compiler::{Candidate, DeviceCompiler, LIBRARY_PATH, Rejected, Release};
 use crate::error::Error;
 use crate::options::Shaders;
 use crate::wrapper::PROFILE;
@@ -31,6 +32,53 @@ pub struct Backend {
     pub compiler: DeviceCompiler,
 }
 
+/// Why the generator can't be used.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum Unusable {
+    /// It is not there.
+    NotThere,
+    /// It is there.
+    Library {
+        /// The library.
+        library: PathBuf,
+        /// What is wrong with it.
+        why: WhyUnusable,
+    },
+}
+
+/// What is wrong with a library of the generator.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum WhyUnusable {
+    /// It can't be read.
+    Unreadable(std::io::Error),
+    /// It is no library for a `rustc`.
+    NotOfRustc,
+    /// No installed toolchain is the one that it is for.
+    NoCompiler {
+        /// The library of the compiler that it is for.
+        driver: String,
+    },
+    /// The compiler that it is for can't be used.
+    Compiler(Rejected),
+}
+
+impl fmt::Display for Unusable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self::Library { library, why } = self else { return f.write_str("it is not there") };
+        write!(f, "{} ", library.display())?;
+        match why {
+            WhyUnusable::Unreadable(error) => write!(f, "can't be read: {error}"),
+            WhyUnusable::NotOfRustc => f.write_str("is no library for a rustc"),
+            WhyUnusable::NoCompiler { driver } => {
+                write!(f, "is for a rustc with {driver}, which no installed toolchain has")
+            }
+            WhyUnusable::Compiler(rejected) => write!(f, "is for a compiler that can't be used: {rejected}"),
+        }
+    }
+}
+
 impl Backend {
     /// The one that `OPTIX_RUSTC_CODEGEN_NVVM` names, or else the first in the folders of `LD_LIBRARY_PATH`.
     ///
@@ -40,24 +88,23 @@ impl Backend {
     /// # Ok::<(), optix_toolchain::Error>(())
     /// ```
     pub fn find() -> Result<Self, Error> {
-        let library = library().ok_or_else(|| Error::NoRustCuda("it is not there".into()))?;
+        let library = library().ok_or_else(|| Error::NoRustCuda(Unusable::NotThere))?;
         Self::of(library)
     }
 
     /// The generator in a file.
     fn of(library: PathBuf) -> Result<Self, Error> {
-        let unusable = |reason: String| Error::NoRustCuda(format!("{} {reason}", library.display()));
-        let bytes = std::fs::read(&library).map_err(|error| unusable(format!("can't be read: {error}")))?;
-        let driver = driver_of(&bytes).ok_or_else(|| unusable("is no library for a rustc".into()))?;
+        let unusable = |why| Error::NoRustCuda(Unusable::Library { library: library.clone(), why });
+        let bytes = std::fs::read(&library).map_err(|error| unusable(WhyUnusable::Unreadable(error)))?;
+        let driver = driver_of(&bytes).ok_or_else(|| unusable(WhyUnusable::NotOfRustc))?;
         let has_driver = |candidate: &Candidate| {
             let root = candidate.rustc.parent().and_then(Path::parent);
             root.is_some_and(|root| root.join("lib").join(driver).is_file())
         };
         let candidate = Candidate::all().into_iter().find(has_driver);
-        let candidate = candidate
-            .ok_or_else(|| unusable(format!("is for a rustc with {driver}, which no installed toolchain has")))?;
+        let candidate = candidate.ok_or_else(|| unusable(WhyUnusable::NoCompiler { driver: driver.to_string() }))?;
         let compiler = DeviceCompiler::of_age(&candidate.rustc, OLDEST)
-            .map_err(|rejected| unusable(format!("is for a compiler that can't be used: {rejected}")))?;
+            .map_err(|rejected| unusable(WhyUnusable::Compiler(rejected)))?;
         Ok(Self { library, compiler })
     }
 

@@ -7,7 +7,7 @@
 
 use std::path::PathBuf;
 
-use crate::error::Error;
+use crate::error::{Error, Lacking};
 use crate::libm::PatchedLibm;
 use crate::metadata::Package;
 use crate::options::{Codegen, Shaders};
@@ -56,10 +56,10 @@ impl Wrapper {
         libm: Option<&PatchedLibm>,
     ) -> Result<Self, Error> {
         let library = format!("optix_ptx_{}_{}", package.name.replace('-', "_"), &key[..8]);
-        let user_library = package.library.as_deref().ok_or_else(|| Error::NotAShaderCrate {
-            path: package.dir().to_path_buf(),
-            reason: "it has no library; its code belongs into src/lib.rs".into(),
-        })?;
+        let user_library = package
+            .library
+            .as_deref()
+            .ok_or_else(|| Error::NotAShaderCrate { path: package.dir().to_path_buf(), lacks: Lacking::Library })?;
         write_if_changed(&dir.join("Cargo.toml"), &manifest(&library, shaders, package, recipe, libm))?;
         // rustc_codegen_nvvm, which does not optimise over crates, would keep a heap that nobody uses.
         let heap = if shaders.codegen == Codegen::RustCuda { "" } else { HEAP };

@@ -2,9 +2,9 @@
 
 use std::ffi::c_int;
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::{Library, find};
+use super::{Failure, Library, find};
 
 const CUDA: &str = if cfg!(windows) { "nvcuda.dll" } else { "libcuda.so.1" };
 
@@ -58,8 +58,8 @@ impl fmt::Display for PtxVersion {
 }
 
 /// The libNVVM to use: of those whose PTX the driver takes, the newest. Without a driver, the one with the oldest PTX,
-/// which the most drivers take. The error says what is there. It looks where [`libraries`](crate::libraries) does.
-pub fn choose(cache: Option<&Path>) -> Result<Library, String> {
+/// which the most drivers take. It looks where [`libraries`](crate::libraries) does.
+pub fn choose(cache: Option<&Path>) -> Result<Library, NoLibrary> {
     let driver = PtxVersion::of_driver();
     let mut rejected = Vec::new();
     let mut best: Option<(PtxVersion, Library)> = None;
@@ -68,14 +68,14 @@ pub fn choose(cache: Option<&Path>) -> Result<Library, String> {
         let (version, library) = match loaded {
             Ok(loaded) => loaded,
             Err(failure) => {
-                rejected.push(format!("{}: {failure}", path.display()));
+                rejected.push(Rejected { path, why: Why::Failed(failure) });
                 continue;
             }
         };
         if let Some(driver) = driver
             && version > driver
         {
-            rejected.push(format!("{} writes PTX {version}, and the driver takes up to {driver}", path.display()));
+            rejected.push(Rejected { path, why: Why::TooNew { writes: version, driver } });
             continue;
         }
         let is_better = |best: PtxVersion| if driver.is_some() { version > best } else { version < best };
@@ -83,9 +83,59 @@ pub fn choose(cache: Option<&Path>) -> Result<Library, String> {
             best = Some((version, library));
         }
     }
-    best.map(|(_, library)| library)
-        .ok_or_else(|| if rejected.is_empty() { "none found".to_string() } else { rejected.join("; ") })
+    best.map(|(_, library)| library).ok_or(NoLibrary { rejected })
 }
+
+/// There is no libNVVM that can be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoLibrary {
+    /// Those that are there, and why they can't be used.
+    pub rejected: Vec<Rejected>,
+}
+
+/// A libNVVM that can't be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rejected {
+    /// The library.
+    pub path: PathBuf,
+    /// Why not.
+    pub why: Why,
+}
+
+/// Why a libNVVM can't be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Why {
+    /// It can't be loaded, or does not say what it is.
+    Failed(Failure),
+    /// The driver does not take the PTX that it writes.
+    TooNew {
+        /// The version that it writes.
+        writes: PtxVersion,
+        /// The newest that the driver takes.
+        driver: PtxVersion,
+    },
+}
+
+impl fmt::Display for NoLibrary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.rejected.is_empty() {
+            return f.write_str("none found");
+        }
+        for (i, Rejected { path, why }) in self.rejected.iter().enumerate() {
+            write!(f, "{}{}", if i == 0 { "" } else { "; " }, path.display())?;
+            match why {
+                Why::Failed(failure) => write!(f, ": {failure}")?,
+                Why::TooNew { writes, driver } => {
+                    write!(f, " writes PTX {writes}, and the driver takes up to {driver}")?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for NoLibrary {}
 
 #[cfg(test)]
 mod tests {

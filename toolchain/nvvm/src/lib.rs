@@ -18,7 +18,7 @@ mod lower;
 mod print;
 mod refusal;
 
-pub use driver::{PtxVersion, choose};
+pub use driver::{NoLibrary, PtxVersion, Rejected, Why, choose};
 pub use find::{cached, libdevice, libraries};
 pub use library::{Failure, Library};
 pub use refusal::Refusal;

@@ -152,7 +152,7 @@ fn nvvm() {
 
 /// What is missing of `rustc_codegen_nvvm`, without what to install.
 fn missing(error: &Error) -> String {
-    if let Error::NoRustCuda(reason) = error { reason.clone() } else { error.to_string() }
+    if let Error::NoRustCuda(reason) = error { reason.to_string() } else { error.to_string() }
 }
 
 /// The last line of what a program says to `--version`.
