@@ -30,7 +30,7 @@ const TINY: f32 = f32::MIN_POSITIVE * 16.0;
 /// A ray that starts at [`SurfacePoint::origin`] of its own direction does not meet the triangle that the point is on, with
 /// any `tmin >= 0`, whatever its direction: [`ray`](Self::ray). A surface that is farther away than the `error`s of both is
 /// met. A segment between two points meets neither surface, if each point is farther from the other one's plane than both
-/// errors: [`ray_to`](Self::ray_to); on OptiX large fields are an exception that is not understood yet (docs/measurements.md).
+/// errors: [`ray_to`](Self::ray_to).
 ///
 /// Nothing is promised of a ray that starts in the plane of a triangle, such as at [`SurfacePoint::position`]. The interval of a
 /// ray is closed, so where rounding happens to give `t = tmin`, the triangle is hit.

@@ -4,7 +4,7 @@
 //! families of triangles; by default it is a million.
 
 use glam::{Affine3A, DVec3, Quat, Vec3};
-use optix_host::{BackendKind, Device};
+use optix_host::Device;
 use optix_tests::devices;
 use optix_tests::meshes;
 use optix_tests::probe::{Part, ProbeRay, Tracer, ray};
@@ -427,9 +427,6 @@ fn segments_meet_what_is_between_and_no_end() {
 }
 
 /// A ray meets the one triangle that it does not ignore, whether it ends soon after that or never.
-///
-/// On OptiX the rays without an end are sent with `OPTIX_TEST_ENDLESS=1` only: in this field some don't return from traversal with
-/// driver 580 on a GPU without ray-tracing cores, which a launch can't be made to give up (docs/measurements.md).
 #[test]
 fn rays_without_an_end_return() {
     for device in devices::all("rays_without_an_end_return") {
@@ -438,10 +435,6 @@ fn rays_without_an_end_return() {
         let ends = met(2.0);
         let hits = ends.iter().filter(|d| d.error > 0.0).count();
         assert!(hits * 4 > ends.len(), "{hits} of {}", ends.len());
-        if device.kind() == BackendKind::Optix && std::env::var_os("OPTIX_TEST_ENDLESS").is_none_or(|v| v != "1") {
-            println!("rays without an end are not sent on {}: OPTIX_TEST_ENDLESS=1 sends them", device.description());
-            continue;
-        }
         assert_eq!(met(f32::MAX), ends);
         println!("rays without an end, on {}: {hits} hits as those that end", device.description());
     }

@@ -2,6 +2,7 @@
 #![no_std]
 
 pub mod callables;
+pub mod deep;
 pub mod queries;
 pub mod reports;
 pub mod spawn;

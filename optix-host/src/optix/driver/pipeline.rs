@@ -20,7 +20,7 @@ pub struct LinkOptions {
     /// Traversables on the longest path from a traced root to a leaf: 1 for a lone geometry acceleration structure, 2 for
     /// one level of instances, and one more for each transform and each level of instances between.
     pub max_graph_depth: u32,
-    /// The stacks, where the caller knows them better than [`stack::compute`].
+    /// The stacks, where the caller knows them better than [`stack::compute`] and [`stack::traversal_reserve`].
     pub stack: Option<StackSizes>,
 }
 
@@ -83,7 +83,11 @@ impl Pipeline {
         };
         let stacks = groups.iter().map(|group| group.stack(raw)).collect::<Result<Vec<_>, _>>()?;
         inner.groups_stack = stacks.into_iter().collect();
-        inner.stack = link.stack.unwrap_or_else(|| stack::compute(inner.groups_stack, link.depths));
+        inner.stack = link.stack.unwrap_or_else(|| {
+            let programs = stack::compute(inner.groups_stack, link.depths);
+            let reserve = stack::traversal_reserve(context.limits().rt_core_version, link.max_graph_depth);
+            StackSizes { continuation: programs.continuation.saturating_add(reserve), ..programs }
+        });
         inner.set_stack(link.max_graph_depth)?;
         Ok(Self(Arc::new(inner)))
     }

@@ -29,7 +29,11 @@ pub(super) fn optix_remedy(result: OptixResult) -> &'static str {
             "an object of another context, or one already destroyed, was passed"
         }
         OptixResult::CUDA_NOT_INITIALIZED => "no CUDA context is current on this thread",
-        OptixResult::VALIDATION_FAILURE => "validation mode caught an error in a program; the driver log says which",
+        OptixResult::VALIDATION_FAILURE => {
+            "validation mode caught an error in a program; the driver log says which. An internal traversal stack overflow is no \
+             error of a program: geometry over many scales makes structures so deep, and outside of validation mode the \
+             pipeline's stack has a reserve for it"
+        }
         OptixResult::INVALID_INPUT | OptixResult::INVALID_FILE_FORMAT => {
             "the module is not PTX that this driver reads: the log gives the line; PTX of a newer .version or a newer \
              .target than the driver or GPU knows is refused too"

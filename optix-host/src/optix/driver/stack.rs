@@ -104,6 +104,18 @@ pub fn css_cc_tree(trees: &[(u32, u32)]) -> u32 {
     trees.iter().map(|&(depth, css)| depth.saturating_mul(css)).max().unwrap_or(0)
 }
 
+/// What the continuation stack needs beyond the programs' own use on a GPU whose ray-tracing cores have this version
+/// ([`Limits::rt_core_version`](super::Limits::rt_core_version)), for graphs of this depth.
+///
+/// Without ray-tracing cores the driver walks structures by a program, whose own stack is too small for structures of many
+/// levels, as geometry over many scales makes them: it overwrites what lies beside it, silently, and that is the free end of the
+/// continuation stack. Validation mode reports it as an internal traversal stack overflow, however much is free. The guide does
+/// not mention it. By measurement (docs/measurements.md) one level takes up to 1,024 bytes over 60 powers of two, and levels of
+/// instances add up; this is twice that for the first level. With ray-tracing cores nothing of the kind was measured, nor could be.
+pub fn traversal_reserve(rt_core_version: u32, graph_depth: u32) -> u32 {
+    if rt_core_version > 0 { 0 } else { graph_depth.saturating_add(1).saturating_mul(1024) }
+}
+
 /// A path tracer without callables: the ray-generation program traces camera rays, whose closest-hit program
 /// traces shadow rays, whose programs trace nothing. `camera` and `shadow` hold the maxima of each ray type's programs.
 pub fn simple_path_tracer(css_rg: u32, camera: GroupStack, shadow: GroupStack) -> StackSizes {
@@ -162,6 +174,12 @@ mod tests {
         // Without traces only ray generation and its callables count.
         assert_eq!(compute(MAX, CallDepths { trace: 0, ..DEPTHS }).continuation, 114);
         assert_eq!(compute(MAX, CallDepths { trace: 1, ..DEPTHS }).continuation, 178);
+    }
+
+    #[test]
+    fn traversal_by_a_program_has_a_reserve() {
+        assert_eq!([1, 2, u32::MAX].map(|depth| traversal_reserve(0, depth)), [2048, 3072, u32::MAX]);
+        assert_eq!(traversal_reserve(20, 2), 0);
     }
 
     #[test]
