@@ -20,7 +20,7 @@ pub(crate) trait Backend: Any + Send + Sync {
     /// ([`shared::width`](optix_device_rs::host::shared::width)).
     fn allocate(&self, bytes: usize, width: usize) -> Result<Arc<dyn Memory>>;
     /// Builds a geometry acceleration structure.
-    fn build_gas(&self, input: GasInput) -> Result<BuiltAccel>;
+    fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel>;
     /// Builds an instance acceleration structure.
     fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel>;
     /// By which number programs know callable record `index` of a scene; those of the `count` records from there on follow it.

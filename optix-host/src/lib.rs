@@ -16,6 +16,7 @@ pub mod cpu;
 pub mod cust;
 mod device;
 mod error;
+mod features;
 pub mod geometry;
 mod launch;
 mod limits;

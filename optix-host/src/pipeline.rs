@@ -97,7 +97,7 @@ impl<'s, P: PipelineType> PipelineBuilder<'s, P> {
         if device.kind() == BackendKind::Optix && ptx.is_none() {
             return Err(error(PipelineError::NoPtx));
         }
-        let plan = Arc::new(Plan::new(P::DESCRIPTION, state, ptx, self.bound)?);
+        let plan = Arc::new(Plan::new(P::DESCRIPTION, &state.features, ptx, self.bound)?);
         let sbt = ShaderBindingTable::of(state, &plan)?;
         let records: Vec<_> = state.kept().cloned().collect();
         let linked = device.backend.link(plan.clone(), sbt, &records)?;

@@ -48,8 +48,8 @@ impl<P: Pipeline, G: GasPrimitive> GasBuilder<'_, P, G> {
     fn build_for(self, random_vertex_access: bool) -> Result<Accel<P>> {
         let Scene { device, state, .. } = self.scene;
         let input = state.gas_input(&self.members, self.compact, random_vertex_access)?;
-        let built = device.backend.build_gas(input)?;
-        state.add_gas(&self.members, built)
+        let built = device.backend.build_gas(&input)?;
+        state.add_gas(&self.members, &input, built)
     }
 }
 

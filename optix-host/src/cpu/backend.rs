@@ -52,8 +52,8 @@ impl Backend for CpuBackend {
         Ok(Arc::new(CpuMemory::zeroed(self.id, bytes, width)?))
     }
 
-    fn build_gas(&self, input: GasInput) -> Result<BuiltAccel> {
-        Ok(built(Gas::new(input.inputs)?.into()))
+    fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel> {
+        Ok(built(Gas::new(input.inputs.clone())?.into()))
     }
 
     fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel> {

@@ -1,7 +1,7 @@
 //! Geometry as both machines take it, and the only checks of what users give (guide 5.1).
 //!
 //! A kind of primitive is a file: the builder that users see, and a checked array of primitives, which nothing but its check
-//! makes. The kind is registered here, as a [`GasPrimitive`] and as a variant of [`GasInputs`], which is what a machine builds
+//! makes. The kind is registered here, as a [`GasPrimitive`] and as a variant of [`BuildInputs`], which is what a machine builds
 //! a GAS of.
 
 mod custom;
@@ -30,6 +30,11 @@ pub trait PrimitiveArray: Send + Sync + 'static {
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
+
+    /// At how many times they are given: 1 for those that don't move.
+    fn motion_keys(&self) -> usize {
+        1
+    }
 }
 
 /// A kind of primitive that GASes are built of: what a device program calls it, with the array that a host gives.
@@ -38,7 +43,7 @@ pub trait GasPrimitive: Geometry {
     type Array: PrimitiveArray;
 
     /// Build inputs of this kind.
-    fn inputs(inputs: Vec<BuildInput<Self::Array>>) -> GasInputs;
+    fn inputs(inputs: Vec<BuildInput<Self::Array>>) -> BuildInputs;
 }
 
 /// Something that users give as geometry.
@@ -52,7 +57,7 @@ pub trait IntoGeometry {
 
 /// The build inputs of a GAS, which are all of one kind (guide 5.1).
 #[derive(Clone, Debug)]
-pub enum GasInputs {
+pub enum BuildInputs {
     /// Triangles.
     Triangles(Vec<BuildInput<TriangleArray>>),
     /// Custom primitives.
@@ -62,37 +67,48 @@ pub enum GasInputs {
 impl GasPrimitive for Triangles {
     type Array = TriangleArray;
 
-    fn inputs(inputs: Vec<BuildInput<TriangleArray>>) -> GasInputs {
-        GasInputs::Triangles(inputs)
+    fn inputs(inputs: Vec<BuildInput<TriangleArray>>) -> BuildInputs {
+        BuildInputs::Triangles(inputs)
     }
 }
 
 impl GasPrimitive for Custom {
     type Array = CustomPrimitiveArray;
 
-    fn inputs(inputs: Vec<BuildInput<CustomPrimitiveArray>>) -> GasInputs {
-        GasInputs::Custom(inputs)
+    fn inputs(inputs: Vec<BuildInput<CustomPrimitiveArray>>) -> BuildInputs {
+        BuildInputs::Custom(inputs)
     }
 }
 
-impl From<Vec<BuildInput<TriangleArray>>> for GasInputs {
+impl From<Vec<BuildInput<TriangleArray>>> for BuildInputs {
     fn from(inputs: Vec<BuildInput<TriangleArray>>) -> Self {
         Self::Triangles(inputs)
     }
 }
 
-impl From<Vec<BuildInput<CustomPrimitiveArray>>> for GasInputs {
+impl From<Vec<BuildInput<CustomPrimitiveArray>>> for BuildInputs {
     fn from(inputs: Vec<BuildInput<CustomPrimitiveArray>>) -> Self {
         Self::Custom(inputs)
     }
 }
 
-impl GasInputs {
+impl BuildInputs {
     /// Which kind it is.
     pub fn kind(&self) -> GeometryKind {
         match self {
             Self::Triangles(_) => Triangles::KIND,
             Self::Custom(_) => Custom::KIND,
+        }
+    }
+
+    /// The most motion keys of an input.
+    pub fn motion_keys(&self) -> usize {
+        fn most<A: PrimitiveArray>(inputs: &[BuildInput<A>]) -> usize {
+            inputs.iter().map(|input| input.primitives().motion_keys()).max().unwrap_or(1)
+        }
+        match self {
+            Self::Triangles(inputs) => most(inputs),
+            Self::Custom(inputs) => most(inputs),
         }
     }
 

@@ -60,10 +60,11 @@ impl Backend for OptixBackend {
         Ok(index)
     }
 
-    fn build_gas(&self, input: GasInput) -> Result<BuiltAccel> {
+    fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel> {
         let GasInput { inputs, compact, random_vertex_access } = input;
+        let (compact, random_vertex_access) = (*compact, *random_vertex_access);
         let options = AccelOptions { compact, random_vertex_access, ..Default::default() };
-        Ok(built(Accel::gas(&self.context, &inputs, &options)?))
+        Ok(built(Accel::gas(&self.context, inputs, &options)?))
     }
 
     fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel> {
@@ -279,13 +280,14 @@ impl Groups<'_> {
 }
 
 fn pipeline_options(plan: &Plan) -> PipelineOptions {
-    let primitives = plan.kinds.iter().fold(PrimitiveKinds::default(), |all, kind| {
+    let primitives = plan.primitives.iter().fold(PrimitiveKinds::default(), |all, kind| {
         all.with(match kind {
             GeometryKind::Triangles => PrimitiveKinds::TRIANGLE,
             GeometryKind::Custom => PrimitiveKinds::CUSTOM,
         })
     });
     PipelineOptions {
+        motion_blur: plan.motion,
         graph: match plan.graph {
             Graph::SingleGas => TraversableGraph::SingleGas,
             Graph::SingleLevelInstancing => TraversableGraph::SingleLevelInstancing,

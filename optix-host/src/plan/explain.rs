@@ -13,6 +13,20 @@ pub struct Note {
     pub reason: String,
 }
 
+/// Decisions as they are made.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Notes(Vec<Note>);
+
+impl Notes {
+    pub fn add(&mut self, what: &'static str, choice: impl Into<String>, reason: impl Into<String>) {
+        self.0.push(Note { what, choice: choice.into(), reason: reason.into() });
+    }
+
+    pub fn explanation(&self, pipeline: &'static str) -> Explanation {
+        Explanation { pipeline, notes: self.0.clone(), device: Vec::new() }
+    }
+}
+
 /// All decisions; print it for people.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Explanation {

@@ -3,10 +3,10 @@
 use super::{BuiltAccel, SceneState};
 use crate::Result;
 use crate::error::SceneError;
+use crate::features::Roots;
 use optix_device_rs::host::{DeviceId, World};
 use std::marker::PhantomData;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// An acceleration structure of a scene. A clone is the same structure.
 pub struct Accel<P> {
@@ -31,10 +31,10 @@ pub(crate) struct AccelShared {
     pub(super) first_slot: u32,
     /// The table has at least this many slots.
     pub slots: u32,
-    /// Of the scene's structures: see `Usage`.
-    pub(super) roots: Arc<AtomicU32>,
+    /// Those of the scene.
+    roots: Roots,
     /// Keeps the children alive.
-    pub(super) _children: Vec<Arc<AccelShared>>,
+    _children: Vec<Arc<AccelShared>>,
 }
 
 impl AccelShared {
@@ -54,7 +54,7 @@ impl<P> Accel<P> {
         if shared.first_slot != 0 {
             return Err(SceneError::NotFirstGas.into());
         }
-        shared.roots.fetch_or(1 << shared.depth, Relaxed);
+        shared.roots.add(shared.depth);
         Ok(shared.world())
     }
 
@@ -73,7 +73,7 @@ impl SceneState {
         first_slot: u32,
         children: Vec<Arc<AccelShared>>,
     ) -> Accel<P> {
-        self.usage.depths.push(depth);
+        self.features.add_structure(depth);
         let shared = AccelShared {
             built,
             device: self.device,
@@ -81,7 +81,7 @@ impl SceneState {
             depth,
             first_slot,
             slots: self.slots.len() as u32,
-            roots: self.usage.roots.clone(),
+            roots: self.features.roots.clone(),
             _children: children,
         };
         Accel { shared: Arc::new(shared), pipeline: PhantomData }

@@ -36,6 +36,7 @@ impl SceneState {
 
     /// Adds records, and numbers them from `first` on: what tells launches whose they are.
     pub(crate) fn add_callables(&mut self, first: u32, states: Vec<CallableState>) -> CallableShared {
+        self.features.callables.extend(states.iter().map(|state| state.program));
         self.callables.extend((first..).zip(states).map(|(number, state)| CallableState { number, ..state }));
         CallableShared { scene: self.id, end: self.callables.len() as u32 }
     }

@@ -74,11 +74,12 @@ impl SceneState {
     pub(crate) fn add_gas<P, G: GasPrimitive>(
         &mut self,
         members: &[GasMember<P, G>],
+        input: &GasInput,
         built: BuiltAccel,
     ) -> Result<Accel<P>> {
         let slots = members.iter().flat_map(|m| m.slots.iter().copied()).collect();
         let first_slot = self.slots_for(slots)?;
-        self.usage.add(G::KIND);
+        self.features.add_gas(&input.inputs);
         Ok(self.add_accel(built, 0, first_slot, Vec::new()))
     }
 }

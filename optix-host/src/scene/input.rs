@@ -1,13 +1,13 @@
 //! What a machine is given to build acceleration structures, and what it gives back.
 
 use super::InstanceFlags;
-use crate::geometry::GasInputs;
+use crate::geometry::BuildInputs;
 use std::any::Any;
 use std::sync::Arc;
 
 /// What a GAS is built of.
 pub(crate) struct GasInput {
-    pub inputs: GasInputs,
+    pub inputs: BuildInputs,
     pub compact: bool,
     /// Whether programs read its vertices by handle.
     pub random_vertex_access: bool,

@@ -23,11 +23,11 @@ pub use material::Material;
 pub(crate) use material::MaterialState;
 
 use crate::Result;
+use crate::features::Features;
 use optix_device_rs::data::DeviceData;
-use optix_device_rs::host::{DeviceId, GeometryKind, KeepAlive, Kept, PipelineDescription, Twin};
+use optix_device_rs::host::{DeviceId, KeepAlive, Kept, PipelineDescription, Twin};
 use std::collections::HashMap;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The content of a scene.
 pub(crate) struct SceneState {
@@ -47,22 +47,11 @@ pub(crate) struct SceneState {
     pub callables: Vec<CallableState>,
     /// Of the exception program.
     pub exception: RecordData,
-    pub usage: Usage,
+    pub features: Features,
 }
 
 /// One material on one kind of geometry: its index and its hit group's.
 pub(crate) type Slot = (u32, u32);
-
-/// What the acceleration structures of a scene use.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Usage {
-    /// Kinds of geometry, in order of first use.
-    pub kinds: Vec<GeometryKind>,
-    /// Levels of instances over a GAS: of every structure that was built.
-    pub depths: Vec<u32>,
-    /// Bit `n`: rays may be traced against a structure with `n` levels, since its [`World`](optix_device_rs::host::World) was taken.
-    pub roots: Arc<AtomicU32>,
-}
 
 /// A record's bytes, if it was given, and what keeps its views alive.
 #[derive(Clone, Default)]
@@ -96,7 +85,7 @@ impl SceneState {
             raygen: description.raygen.iter().map(|rg| record(rg.record.size)).collect(),
             callables: Vec::new(),
             exception: record(description.exceptions.program.map_or(0, |program| program.record.size)),
-            usage: Usage::default(),
+            features: Features::default(),
         }
     }
 
@@ -130,6 +119,7 @@ impl SceneState {
         }
         let first = numbered(self.slots.len(), "records of geometry")?;
         numbered(self.slots.len() + materials.len(), "records of geometry")?;
+        self.features.hit_groups.extend(materials.iter().map(|&(_, group)| group as usize));
         self.slots.extend_from_slice(&materials);
         self.slots_of.insert(materials, first);
         Ok(first)
@@ -139,12 +129,4 @@ impl SceneState {
 /// A count that numbers of 32 bits can count.
 pub(crate) fn numbered(count: usize, what: &'static str) -> Result<u32> {
     u32::try_from(count).map_err(|_| SceneError::TooMany { what, count }.into())
-}
-
-impl Usage {
-    fn add(&mut self, kind: GeometryKind) {
-        if !self.kinds.contains(&kind) {
-            self.kinds.push(kind);
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use super::bvh::{Aabb, Bvh};
 use super::primitive::Primitives;
 use crate::error::BuildError;
-use crate::geometry::{BuildInput, GasInputs, GasLimits, GeometryFlags, PrimitiveArray};
+use crate::geometry::{BuildInput, BuildInputs, GasLimits, GeometryFlags, PrimitiveArray};
 use crate::limits::{MAX_PRIMITIVES, MAX_RECORDS_OF_GAS};
 
 const LIMITS: GasLimits = GasLimits { primitives: MAX_PRIMITIVES, records: MAX_RECORDS_OF_GAS };
@@ -31,7 +31,7 @@ pub struct Gas {
 
 impl Gas {
     /// Builds over primitives of one kind. No inputs, and inputs without primitives, are legal; rays then miss.
-    pub fn new(inputs: impl Into<GasInputs>) -> Result<Self, BuildError> {
+    pub fn new(inputs: impl Into<BuildInputs>) -> Result<Self, BuildError> {
         let inputs = inputs.into();
         inputs.check(LIMITS)?;
         let table = Table::of(&inputs);
@@ -107,11 +107,11 @@ struct Table {
 }
 
 impl Table {
-    fn of(inputs: &GasInputs) -> Self {
+    fn of(inputs: &BuildInputs) -> Self {
         let mut table = Self::default();
         match inputs {
-            GasInputs::Triangles(inputs) => table.add(inputs),
-            GasInputs::Custom(inputs) => table.add(inputs),
+            BuildInputs::Triangles(inputs) => table.add(inputs),
+            BuildInputs::Custom(inputs) => table.add(inputs),
         }
         table
     }

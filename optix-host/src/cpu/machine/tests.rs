@@ -60,7 +60,7 @@ struct Planned {
 const PLANNED: Planned = Planned {
     depths: Depths {
         trace: 2,
-        trace_is_a_promise: false,
+        trace_is_stated: false,
         continuation: 0,
         direct_from_traversal: 0,
         direct_from_state: 3,

@@ -10,6 +10,7 @@ const LAYERS: &[&[&str]] = &[
     &["limits", "affine"],
     &["error"],
     &["geometry"],
+    &["features"],
     &["scene"],
     &["plan"],
     &["sbt"],

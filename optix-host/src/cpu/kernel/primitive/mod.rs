@@ -11,7 +11,7 @@ use super::bvh::Bvh;
 use super::candidate::Sink;
 use super::program::Programs;
 use super::simd::Simd;
-use crate::geometry::{BuildInput, GasInputs, PrimitiveArray};
+use crate::geometry::{BuildInput, BuildInputs, PrimitiveArray};
 use custom::Custom;
 use triangle::Triangles;
 
@@ -24,14 +24,14 @@ pub enum Primitives {
 
 impl Primitives {
     /// Packs primitives, with a hierarchy over them.
-    pub fn build(inputs: GasInputs) -> (Bvh, Self) {
+    pub fn build(inputs: BuildInputs) -> (Bvh, Self) {
         fn packed<L: Leaves>(inputs: Vec<BuildInput<L::Array>>, kind: fn(L) -> Primitives) -> (Bvh, Primitives) {
             let (bvh, leaves) = L::build(inputs);
             (bvh, kind(leaves))
         }
         match inputs {
-            GasInputs::Triangles(inputs) => packed(inputs, Self::Triangles),
-            GasInputs::Custom(inputs) => packed(inputs, Self::Custom),
+            BuildInputs::Triangles(inputs) => packed(inputs, Self::Triangles),
+            BuildInputs::Custom(inputs) => packed(inputs, Self::Custom),
         }
     }
 

@@ -5,7 +5,7 @@ use super::build::{RawInput, build};
 use super::staging::{Staging, Upload};
 use super::{Accel, AccelOptions};
 use crate::error::DriverError as Error;
-use crate::geometry::{BuildInput, GasInputs, GasLimits};
+use crate::geometry::{BuildInput, BuildInputs, GasLimits};
 
 /// A kind of primitive that OptiX takes. Each has one conversion.
 pub(super) trait ToInput: Sized {
@@ -18,7 +18,7 @@ pub(super) trait ToInput: Sized {
 ///
 /// # Safety
 /// As [`ToInput::to_input`].
-unsafe fn to_inputs(inputs: &GasInputs, upload: &mut impl Upload) -> Result<Vec<RawInput>, Error> {
+unsafe fn to_inputs(inputs: &BuildInputs, upload: &mut impl Upload) -> Result<Vec<RawInput>, Error> {
     unsafe fn each<A: ToInput>(inputs: &[BuildInput<A>], upload: &mut impl Upload) -> Result<Vec<RawInput>, Error> {
         // SAFETY: the caller's.
         inputs.iter().map(|input| unsafe { A::to_input(input, upload) }).collect()
@@ -26,8 +26,8 @@ unsafe fn to_inputs(inputs: &GasInputs, upload: &mut impl Upload) -> Result<Vec<
     // SAFETY: the caller's.
     unsafe {
         match inputs {
-            GasInputs::Triangles(inputs) => each(inputs, upload),
-            GasInputs::Custom(inputs) => each(inputs, upload),
+            BuildInputs::Triangles(inputs) => each(inputs, upload),
+            BuildInputs::Custom(inputs) => each(inputs, upload),
         }
     }
 }
@@ -37,17 +37,18 @@ impl Accel {
     ///
     /// # Errors
     /// [`Build`](crate::Error::Build) for more primitives or records than one structure has on this GPU,
-    /// [`Driver`](crate::Error::Driver) for motion options, since geometry has no motion keys yet, and where the driver fails.
-    pub fn gas(context: &Context, inputs: &GasInputs, options: &AccelOptions) -> crate::Result<Self> {
+    /// [`Driver`](crate::Error::Driver) for motion options that don't fit the geometry, and where the driver fails.
+    pub fn gas(context: &Context, inputs: &BuildInputs, options: &AccelOptions) -> crate::Result<Self> {
         const WHAT: &str = "a geometry acceleration structure";
         let limits = context.limits();
         inputs.check(GasLimits {
             primitives: limits.max_primitives_per_gas as usize,
             records: limits.max_sbt_records_per_gas as usize,
         })?;
-        if let Some(motion) = &options.motion {
-            let problem = format!("its geometry has one motion key, but its options say {}", motion.keys);
-            return Err(Error::invalid(WHAT, problem, "leave out the motion").into());
+        let keys = options.motion.map_or(1, |motion| motion.keys.into());
+        if keys != inputs.motion_keys() {
+            let problem = format!("its geometry has {} motion keys, but its options say {keys}", inputs.motion_keys());
+            return Err(Error::invalid(WHAT, problem, "give motion options with the keys of the geometry").into());
         }
         let mut staging = Staging::new(context);
         // SAFETY: `staging` is dropped, and so waits for the copies, before this function returns; the data are borrowed for
