@@ -1,4 +1,4 @@
-//! The conversation with cargo in a `build.rs`.
+//! What a `build.rs` tells cargo, and what cargo tells it.
 
 use std::path::{Path, PathBuf};
 
@@ -33,7 +33,8 @@ fn try_compile(shaders: &Shaders) -> Result<(), Error> {
     let (name, text) = match shaders.compile_in(area) {
         Ok(built) => {
             built.inputs.iter().for_each(|input| rerun_if_changed(input));
-            // No file says what the options of the next build are. One that is not there counts as changed.
+            // No file holds the options of the next build, so the script has to run each time. It does where it names a
+            // file that does not exist: cargo counts that as changed.
             if shaders.outer.as_ref().is_some_and(Outer::has_configuration) {
                 rerun_if_changed(&out_dir.join("none"));
             }

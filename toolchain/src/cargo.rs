@@ -12,7 +12,7 @@ pub(crate) fn program() -> PathBuf {
     std::env::var_os("CARGO").filter(|cargo| !cargo.is_empty()).unwrap_or_else(|| "cargo".into()).into()
 }
 
-/// Where cargo runs, and what it is told besides: this decides which configuration files it reads.
+/// Where cargo runs and with which general options. Together they decide which configuration files it reads.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
     /// Cargo reads configuration files from here upwards.
@@ -30,7 +30,8 @@ impl Place {
     }
 }
 
-/// Options that were given to a cargo in `dir`, for one that runs elsewhere: files of settings get their whole path.
+/// Options that were given to a cargo in `dir`, made fit for one that runs in another folder: paths of configuration
+/// files become absolute.
 pub(crate) fn elsewhere(options: &[OsString], dir: &Path) -> Vec<OsString> {
     let file = |value: &str| Some(dir.join(value).into_os_string()).filter(|file| Path::new(file).is_file());
     let mut is_setting = false;
@@ -49,7 +50,8 @@ pub(crate) fn elsewhere(options: &[OsString], dir: &Path) -> Vec<OsString> {
     options.iter().map(option).collect()
 }
 
-/// A cargo that knows nothing of the outer build: not its flags, wrappers (clippy), target or package.
+/// A cargo that does not inherit anything from the outer build: no flags, wrappers (such as clippy's), target or
+/// package.
 ///
 /// It keeps what says how to reach registries, how many jobs to run, what profiles are and how the host links, and reads
 /// configuration files from the folder `dir` upwards as usual.
@@ -87,7 +89,8 @@ fn belongs_to_outer_build(name: &str, in_build_script: bool) -> bool {
         "CARGO_TERM_",
     ];
     const REMOVED: &[&str] = &["CARGO", "RUSTC", "RUSTFLAGS", "RUSTDOC", "CLIPPY_", "DEP_", "OUT_DIR"];
-    // What cargo tells build scripts, and no compiler: `option_env!` would see it on the device only.
+    // Cargo sets these for build scripts but not for compilers. If they stayed, `option_env!` would see them on the
+    // device and not on the host.
     const OF_BUILD_SCRIPTS: &[&str] = &["TARGET", "HOST", "NUM_JOBS", "OPT_LEVEL", "DEBUG", "PROFILE"];
     let starts = |prefixes: &[&str]| prefixes.iter().any(|prefix| name.starts_with(prefix));
     // `CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_LINKER`: how build scripts are linked, and programs run, on this machine.
@@ -95,8 +98,8 @@ fn belongs_to_outer_build(name: &str, in_build_script: bool) -> bool {
     starts(REMOVED) && !starts(KEPT) && !is_of_host || in_build_script && OF_BUILD_SCRIPTS.contains(&name)
 }
 
-/// The folders of a library path without those that cargo has put there: of its target directory and of its compiler. Another
-/// compiler must not load these.
+/// The folders of a library path without those that cargo has added: its target directory and the libraries of its own
+/// compiler, which another compiler must not load.
 fn users_library_path(path: &OsStr) -> Option<OsString> {
     let is_cargos = |dir: &PathBuf| {
         let is_of_compiler = dir.join("rustlib").is_dir() || dir.components().any(|part| part.as_os_str() == "rustlib");

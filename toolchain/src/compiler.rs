@@ -1,4 +1,4 @@
-//! Which `rustc` compiles shaders.
+//! Finds the `rustc` that compiles shaders.
 //!
 //! Any stock `rustc` can write PTX. What most installations lack is the source of `core`, because no `core` is
 //! distributed for `nvptx64-nvidia-cuda`.
@@ -12,8 +12,8 @@ use crate::error::Error;
 /// The value of `OPTIX_RUSTC` that stands for no compiler.
 const NONE: &str = "none";
 
-/// Where the system looks for libraries, before its own folders. Cargo sets it for build scripts to its own compiler's;
-/// another compiler must not load those.
+/// The environment variable with the folders in which the system looks for libraries first. For build scripts, cargo
+/// adds the folder of its own compiler, whose libraries another compiler must not load.
 pub(crate) const LIBRARY_PATH: &str = "LD_LIBRARY_PATH";
 
 /// The target triple of device code.
@@ -25,7 +25,7 @@ pub const MINIMUM: Release = Release { major: 1, minor: 95 };
 /// The version of a `rustc`, as far as it matters here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Release {
-    /// 1
+    /// 1 in 1.96.0
     pub major: u32,
     /// 96 in 1.96.0
     pub minor: u32,
@@ -116,7 +116,7 @@ impl DeviceCompiler {
     /// # Ok::<(), optix_toolchain::Error>(())
     /// ```
     pub fn find() -> Result<Self, Error> {
-        // A choice is not second-guessed: if it is unusable, that is an error and no other compiler is taken.
+        // If `OPTIX_RUSTC` names a compiler that can't be used, that is an error, and no other compiler is tried.
         if let Some(chosen) = chosen() {
             if chosen == Path::new(NONE) {
                 return Err(Error::SwitchedOff);
@@ -138,7 +138,7 @@ impl DeviceCompiler {
         Self::of_age(rustc, MINIMUM)
     }
 
-    /// Whether this `rustc`, if it is that old or newer, can compile device code.
+    /// Checks that this `rustc` is of the release `oldest` or newer, and can compile device code.
     pub(crate) fn of_age(rustc: &Path, minimum: Release) -> Result<Self, Rejected> {
         let reject = |why| Rejected { rustc: rustc.to_path_buf(), why };
         let version = output(rustc, &["-vV"]).map_err(|e| reject(Why::DoesNotRun(e)))?;
@@ -164,10 +164,10 @@ impl DeviceCompiler {
         Ok(Self { rustc: rustc.to_path_buf(), release, llvm, library, archs, version })
     }
 
-    /// Has a cargo use it.
+    /// Makes a cargo use this compiler.
     pub(crate) fn used_by<'c>(&self, cargo: &'c mut Command) -> &'c mut Command {
         cargo.env("RUSTC", &self.rustc).env("RUSTC_BOOTSTRAP", "1");
-        // Also where a configuration file names a wrapper.
+        // An empty value also switches off a wrapper that a configuration file names.
         cargo.env("RUSTC_WRAPPER", "").env("RUSTC_WORKSPACE_WRAPPER", "")
     }
 
@@ -190,8 +190,8 @@ impl DeviceCompiler {
 }
 
 impl Candidate {
-    /// Every `rustc` worth a look, best first: the one in use, those that rustup has (stable before the others, newer
-    /// before older), the distribution's. `OPTIX_RUSTC` stands alone where it is set.
+    /// The compilers to try, best first: the one in use, those that rustup has installed (stable ones first, newer
+    /// before older), and the distribution's. If `OPTIX_RUSTC` is set, only the one that it names.
     pub fn all() -> Vec<Self> {
         if let Some(rustc) = chosen() {
             return vec![Self { rustc, origin: "OPTIX_RUSTC" }];
@@ -245,8 +245,8 @@ fn chosen() -> Option<PathBuf> {
     if chosen.components().count() == 1 { Some(chosen) } else { std::path::absolute(chosen).ok() }
 }
 
-/// Files and small folders that change when a compiler or its sources are installed: what a build without a device
-/// compiler depends on. (Naming the missing file itself would make cargo rebuild the program every time.)
+/// Files and small folders that change when a compiler or its sources are installed. A build that found no device
+/// compiler depends on them. (If it named the missing file itself, cargo would rebuild the program every time.)
 pub(crate) fn installation_records() -> Vec<PathBuf> {
     let mut records = vec![PathBuf::from("/var/lib/dpkg/status")];
     records.extend(rustup_home().map(|home| home.join("update-hashes")));
@@ -286,7 +286,7 @@ fn distribution() -> Vec<PathBuf> {
     found
 }
 
-/// The file that a program name or path stands for, so that one compiler is looked at once.
+/// The file that a program's name or path leads to, so that no compiler is looked at twice.
 fn resolve(program: &Path) -> PathBuf {
     let in_path = || {
         let path = std::env::var_os("PATH")?;

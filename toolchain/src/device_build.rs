@@ -46,22 +46,22 @@ pub(crate) fn build(shaders: &Shaders, area: &Path) -> Result<Built, Error> {
     Session::open(shaders, area)?.build()
 }
 
-/// A device build of one crate: while it lasts, no other process works in the crate's folder.
+/// A device build of one crate. While the value lives, no other process works in the crate's folder.
 pub(crate) struct Session<'a> {
     pub shaders: &'a Shaders,
     pub package: Package,
     pub compiler: DeviceCompiler,
     /// Every package that the shader crate is made from.
     pub graph: Workspace,
-    /// The folder of this crate with these options.
+    /// The folder for this crate with these options.
     pub own: PathBuf,
     /// Where cargo runs.
     pub place: Place,
-    /// What generated packages say.
+    /// What the generated packages are written from.
     pub recipe: Recipe,
     area: PathBuf,
     key: String,
-    /// The user's manifests and configuration.
+    /// The user's manifests and configuration files, which the build depends on.
     settings: Vec<PathBuf>,
     resolve: Wrapper,
     sysroot: Sysroot,
@@ -71,7 +71,7 @@ pub(crate) struct Session<'a> {
 }
 
 impl<'a> Session<'a> {
-    /// Finds compiler and packages.
+    /// Finds the compiler and the packages, and prepares the folders.
     pub fn open(shaders: &'a Shaders, area: &Path) -> Result<Self, Error> {
         if shaders.libdevice && !shaders.codegen.links_libdevice() {
             return Err(Error::Libdevice);
@@ -84,7 +84,7 @@ impl<'a> Session<'a> {
             return Err(Error::UnknownArch { arch: shaders.arch.clone(), known: compiler.archs });
         }
         util::create_dir(area)?;
-        // Cargo runs in other folders.
+        // Cargo runs in other folders, so paths are absolute.
         let area = std::fs::canonicalize(area).doing(|| format!("cannot find {}", area.display()))?;
         let of_host = match &shaders.outer {
             Some(outer) => original.units_of_host(outer, &compiler, &area)?,
@@ -104,7 +104,7 @@ impl<'a> Session<'a> {
             checks: Checks::all(shaders.checks.unwrap_or(false)),
             other_checks: Vec::new(),
         };
-        // Its graph is found below.
+        // `agree` finds its dependency graph.
         let graph = Workspace { packages: Vec::new(), members: Vec::new(), ..original.workspace.clone() };
         let resolve = Wrapper::write(own.join("resolve"), shaders, &package, &recipe, &key, None)?;
         lock::seed(&resolve.dir, &std::fs::read_to_string(original.lock()).unwrap_or_default())?;
@@ -129,8 +129,8 @@ impl<'a> Session<'a> {
         Ok(session)
     }
 
-    /// Resolves the generated package, with the versions that the user has locked, and makes sure that the device build is made
-    /// from what the user's own build is made from, and checks what that checks.
+    /// Resolves the generated package with the versions that the user has locked. Makes sure that the device build is
+    /// made from the same packages and features as the user's own build, and takes over its run-time checks.
     fn agree(&mut self, original: &Original, of_host: &[Unit]) -> Result<(), Error> {
         self.graph = Workspace::with_dependencies(&self.place, &self.resolve.manifest(), &[])?;
         let mut differences = original.differences(&self.graph);
@@ -181,8 +181,8 @@ impl<'a> Session<'a> {
     fn rustflags(&self) -> String {
         let mut flags = vec![
             format!("--sysroot={}", self.sysroot.path.display()),
-            // What device code needs from the compiler beyond stable Rust is given from outside, so that a shader
-            // crate needs no `#![feature]` and compiles on the host with a stable compiler.
+            // Unstable compiler features that device code needs are given on the command line, so that a shader crate
+            // needs no `#![feature]` and compiles on the host with a stable compiler.
             "-Zcrate-attr=feature(abi_ptx,asm_experimental_arch)".into(),
             "-Aunused_features".into(),
         ];
@@ -218,7 +218,7 @@ impl<'a> Session<'a> {
         })
     }
 
-    /// Who uses what is missing; found by compiling again with line information.
+    /// Finds who uses what is missing, by compiling again with line information.
     fn culprit(&self, missing: &[Missing]) -> Option<Culprit> {
         let shaders = self.shaders.clone().line_info(true).codegen(Codegen::Rustc).quiet(true);
         let session;
@@ -232,7 +232,7 @@ impl<'a> Session<'a> {
         let mut cargo = session.cargo("rustc", &wrapper, &session.target_dir());
         cargo.args(["--lib", "--", "--emit=llvm-ir=missing.ll"]);
         let ir = wrapper.dir.join("missing.ll");
-        // It may fail in the same way, but after the IR.
+        // This may fail as the first build did, but only after the IR has been written.
         let _ = cargo.stdout(Stdio::null()).stderr(Stdio::null()).status();
         culprit(&util::read(&ir).ok()?, missing, &session.graph.packages, &session.package)
     }
@@ -284,7 +284,7 @@ impl<'a> Session<'a> {
         Ok(wrapper)
     }
 
-    /// The PTX of rustc's own code generator, and where it is.
+    /// The PTX of rustc's own code generator, and its path.
     fn generate(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(String, PathBuf), Error> {
         let mut ptx = self.emit(wrapper, target_dir, "asm", "ptx")?;
         let mut text = util::read(&ptx)?;
@@ -296,19 +296,19 @@ impl<'a> Session<'a> {
         Ok((text, ptx))
     }
 
-    /// The PTX of `rustc_codegen_nvvm`, which writes it where a linker would write a library, and where it is.
+    /// The PTX of `rustc_codegen_nvvm`, and its path. The generator writes it where a linker would write a library.
     fn generate_by_rust_cuda(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(String, PathBuf), Error> {
         let ptx = self.emit(wrapper, target_dir, "link", "rust-cuda.ptx")?;
         Ok((util::read(&ptx)?, ptx))
     }
 
-    /// The PTX that libNVVM makes of rustc's LLVM IR, and where it is.
+    /// The PTX that libNVVM makes of rustc's LLVM IR, and its path.
     #[cfg(feature = "nvvm")]
     fn generate_by_nvvm(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(String, PathBuf), Error> {
         let library = nvvm::choose().map_err(Error::NoNvvm)?;
         let ir = self.emit(wrapper, target_dir, "llvm-ir", "ll")?;
         let module = nvvm::translated(self.shaders, &util::read(&ir)?)?;
-        // The PTX stays as long as what it was made of does.
+        // Made again only if what it is made of has changed.
         let options = nvvm::options(self.shaders).join(" ");
         let library_path = library.path.to_string_lossy();
         let key = util::hash([module.text.as_str(), &options, &library_path]);
@@ -327,15 +327,16 @@ impl<'a> Session<'a> {
         Ok((text, ptx))
     }
 
-    /// Compiles the device's library crates, those that are not there. Proc macros need none of them, so cargo gets on
-    /// with these in the meantime.
+    /// Compiles those of the device's library crates that are not there yet. Proc macros do not need them, so cargo
+    /// compiles those in the meantime.
     fn make_sysroot(&self, wrapper: &Wrapper, target_dir: &Path) -> Result<(), Error> {
         if !self.sysroot.is_made() {
             let macros = self.graph.packages.iter().filter(|package| package.is_macro);
             let macros: Vec<_> = macros
                 .flat_map(|package| {
                     let id = format!("{}@{}", package.name, package.version);
-                    // Asked for by name, they would be optimised.
+                    // Cargo does not apply its settings for build dependencies to packages that are asked for by name,
+                    // so each is given them here.
                     let setting = |set| format!("--config=profile.{PROFILE}.package.{id:?}.{set}");
                     std::iter::once(format!("--package={id}")).chain(BUILD_OVERRIDE.map(setting))
                 })
@@ -343,7 +344,7 @@ impl<'a> Session<'a> {
             std::thread::scope(|scope| {
                 let core = scope.spawn(|| self.sysroot.make());
                 if !macros.is_empty() {
-                    // If it fails, it will fail again.
+                    // An error here is not reported: the build proper meets it again, and reports it.
                     let _ = cargo::run(self.cargo("build", wrapper, target_dir).args(macros), "compiling proc macros");
                 }
                 core.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
@@ -354,7 +355,7 @@ impl<'a> Session<'a> {
         if !self.sysroot.has_alloc() && uses_alloc() { self.sysroot.make_alloc() } else { Ok(()) }
     }
 
-    /// Has rustc emit `what` of the wrapper package, and says where that is.
+    /// Makes rustc emit `what` of the wrapper package, and returns the path.
     fn emit(&self, wrapper: &Wrapper, target_dir: &Path, what: &str, extension: &str) -> Result<PathBuf, Error> {
         let name = format!("{}.{extension}", wrapper.library);
         let file = wrapper.dir.join(&name);
@@ -366,8 +367,8 @@ impl<'a> Session<'a> {
             command.args(["--lib", messages::format(), "--", &emit]);
             messages::run(&mut command, &doing, &self.graph, &self.package)
         };
-        // Cargo does not know of the file: what it has compiled once is fresh, while the file may be of something else that was
-        // compiled since, or be gone. But it does look at the source's time.
+        // Cargo does not know of this file: it takes for fresh whatever it has compiled once, though the file may come
+        // from something else that was compiled since, or be gone. But it does compare the time of the source.
         let made_of = util::hash([&*util::read(&wrapper.manifest())?, &*util::read(&wrapper.dir.join("Cargo.lock"))?]);
         let stamp = file.with_extension("made-of");
         if !file.is_file() || !util::read(&stamp).is_ok_and(|old| old == made_of) {
@@ -393,19 +394,20 @@ impl<'a> Session<'a> {
         command
     }
 
-    /// Has a cargo compile for the device.
+    /// Makes a cargo compile for the device.
     fn for_device<'c>(&self, command: &'c mut Command) -> &'c mut Command {
         self.by_device_compiler(command).args(["--target", TARGET]).env("CARGO_ENCODED_RUSTFLAGS", self.rustflags())
     }
 
-    /// Has a cargo use the device compiler.
+    /// Makes a cargo use the device compiler.
     pub fn by_device_compiler<'c>(&self, command: &'c mut Command) -> &'c mut Command {
-        // The user's build folder is locked while this build runs.
+        // The user's own build holds the lock of its build folder meanwhile, so this one needs another.
         self.compiler.used_by(command).env("CARGO_BUILD_BUILD_DIR", self.target_dir())
     }
 }
 
-/// Cargo's ways to choose features, the usual one first. Which one a workspace has, `cargo metadata` does not say.
+/// The versions of cargo's feature resolver, the usual one first. `cargo metadata` does not say which one a workspace
+/// uses.
 const RESOLVERS: [&str; 2] = ["3", "1"];
 
 /// The sources that cargo found the PTX to depend on, those of path dependencies included.

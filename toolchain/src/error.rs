@@ -19,7 +19,7 @@ pub enum Error {
         /// The compilers that were looked at, in order, and what each lacks.
         rejected: Vec<Rejected>,
     },
-    /// `OPTIX_RUSTC=none`. Not fatal to a build either.
+    /// `OPTIX_RUSTC=none` was set. Not fatal to a build either: the program can run on the CPU.
     SwitchedOff,
     /// `OPTIX_RUSTC` names a compiler which can't be used.
     ChosenCompiler(Rejected),
@@ -37,16 +37,16 @@ pub enum Error {
         /// What it lacks.
         lacks: Lacking,
     },
-    /// The device build would not be made from what the user's own build is made from.
+    /// Host and device would be made from different packages or features.
     Differs {
         /// The shader crate.
         package: String,
         /// What differs.
         differences: Vec<Difference>,
     },
-    /// A crate needs the standard library.
+    /// A crate that the shader crate uses needs the standard library.
     NeedsStd(NeedsStd),
-    /// The shader crate uses a name of the standard library. The diagnostics went to standard error.
+    /// The shader crate uses a name of the standard library. The compiler's diagnostics went to standard error.
     OfStd {
         /// Its name.
         package: String,
@@ -60,15 +60,15 @@ pub enum Error {
         /// How it ended.
         status: ExitStatus,
     },
-    /// Cargo has failed without an error in Rust code: in a build script, or while generating code. Its messages went to
-    /// standard error.
+    /// Cargo has failed, but no Rust code had an error: it was in a build script, or LLVM failed while it generated
+    /// code. The messages went to standard error.
     Aborted {
         /// What it was doing.
         doing: String,
         /// How it ended.
         status: ExitStatus,
     },
-    /// The shader crate uses what the device does not have.
+    /// The shader crate uses something that the device does not have, such as a heap.
     Missing(Box<Culprit>),
     /// The PTX can't be loaded by OptiX.
     Ptx {
@@ -77,7 +77,7 @@ pub enum Error {
         /// What is wrong with it.
         problem: ptx::Problem,
     },
-    /// No libNVVM on this machine does.
+    /// libNVVM was asked for, and no library on this machine can be used.
     #[cfg(feature = "nvvm")]
     NoNvvm(crate::nvvm::NoLibrary),
     /// The shader crate needs libdevice, and the libNVVM that is used comes without it.
@@ -86,11 +86,11 @@ pub enum Error {
         /// The libNVVM.
         library: PathBuf,
     },
-    /// libdevice was asked for, and the code generator is one that can't link it.
+    /// libdevice was asked for, but only libNVVM can link it, and another code generator was chosen.
     Libdevice,
-    /// No `rustc_codegen_nvvm` on this machine does.
+    /// `rustc_codegen_nvvm` was asked for, and none on this machine can be used.
     NoRustCuda(crate::rust_cuda::Unusable),
-    /// libNVVM has failed.
+    /// libNVVM reported an error.
     #[cfg(feature = "nvvm")]
     Nvvm(crate::nvvm::Failure),
     /// The shader crate has something that can't be translated for libNVVM.
@@ -197,7 +197,8 @@ impl fmt::Display for Difference {
 }
 
 impl Error {
-    /// What is wrong, and what to do about it; nothing where the first says so itself.
+    /// What is wrong, and what to do about it. The second is empty where the first already says it, or nothing general
+    /// can be said.
     fn words(&self) -> (String, Cow<'static, str>) {
         match self {
             Self::NoDeviceCompiler { rejected } => {
@@ -273,7 +274,7 @@ impl Error {
         }
     }
 
-    /// What to do about it, where that is known and not the program's own to say.
+    /// What to do about it, if something general can be said.
     pub fn remedy(&self) -> Option<Cow<'static, str>> {
         Some(self.words().1).filter(|remedy| !remedy.is_empty())
     }

@@ -63,7 +63,7 @@ pub mod rust_cuda;
 mod sysroot;
 mod units;
 mod util;
-// Not for build scripts, which they would make slower.
+// These are left out of build scripts, which would take longer to compile with them.
 #[cfg(feature = "cli")]
 pub mod inspect;
 #[cfg(feature = "cli")]

@@ -11,11 +11,11 @@ use crate::error::Error;
 use crate::metadata::Package;
 use crate::util::{self, toml_string, write_if_changed};
 
-/// The name that the original goes by in the device build: two packages called `libm` of one version can't be
-/// told apart in a lock file.
+/// The name of the original package in the device build. It needs one of its own, because a lock file can't tell apart
+/// two packages called `libm` with the same version.
 pub(crate) const SOFTWARE: &str = "optix-libm-software";
 
-/// Its functions that are called, not inlined: long code for rare arguments.
+/// Functions of the replacement that are called instead of inlined, because they are long and rarely needed.
 #[cfg(feature = "cli")]
 pub(crate) const OUT_OF_LINE: [&str; 1] = ["libm::sin_cos::reduce_large"];
 
@@ -60,11 +60,12 @@ impl PatchedLibm {
     }
 }
 
-/// Copies the package under its new name. A copy, because its build script wants to be beside its manifest.
+/// Copies the package under its new name. It is a copy because the package's build script expects to stand beside its
+/// manifest.
 fn copy_original(original: &Package, to: &Path) -> Result<(), Error> {
     let manifest = util::read(&original.manifest)?;
     let renamed = manifest.replacen("\nname = \"libm\"", &format!("\nname = \"{SOFTWARE}\""), 1);
-    // The manifest is written last and says that the copy is complete.
+    // The manifest is written last, so the copy is complete if there is one.
     if std::fs::read_to_string(to.join("Cargo.toml")).is_ok_and(|there| there == renamed) {
         return Ok(());
     }
@@ -76,7 +77,7 @@ fn copy_original(original: &Package, to: &Path) -> Result<(), Error> {
             write_if_changed(&to.join(part), &util::read(&source)?)?;
         }
     }
-    // Its warnings are for its authors; cargo silences them in registry packages only.
+    // Warnings in this package are for its authors. Cargo silences them only in packages from a registry.
     let root = to.join("src/lib.rs");
     write_if_changed(&root, &format!("#![allow(warnings)]\n{}", util::read(&root)?))?;
     write_if_changed(&to.join("Cargo.toml"), &renamed)?;

@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::error::Error;
 use crate::util;
 
-/// Puts `text` in place as the lock file of the package in `dir`, unless it was put there before: cargo adds to it what
-/// the package needs, and that must last.
+/// Writes `text` as the lock file of the package in `dir`, unless that was done before. Cargo adds to the file what the
+/// package needs besides, and that must not be lost.
 pub(crate) fn seed(dir: &Path, text: &str) -> Result<(), Error> {
     if util::write_if_changed(&dir.join("Cargo.lock.seed"), text)? || !dir.join("Cargo.lock").exists() {
         util::write_if_changed(&dir.join("Cargo.lock"), text)?;
@@ -14,9 +14,9 @@ pub(crate) fn seed(dir: &Path, text: &str) -> Result<(), Error> {
     Ok(())
 }
 
-/// The lock with `libm` of this version taken from a path, depending on the package `software`.
+/// The lock file in which `libm` of this version comes from a path and depends on the package `software`.
 ///
-/// Without this cargo would keep to the locked registry version and ignore the `[patch]`.
+/// Without this, cargo would keep the version from the registry that is locked, and ignore the `[patch]`.
 pub(crate) fn with_patched_libm(lock: &str, version: &str, software: &str) -> String {
     let block = format!("name = \"libm\"\nversion = \"{version}\"\n");
     let mut out = String::new();

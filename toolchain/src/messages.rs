@@ -25,7 +25,7 @@ pub(crate) fn run(command: &mut Command, doing: &str, graph: &Workspace, from: &
     let (mut without_std, mut has_error) = (Vec::<String>::new(), false);
     let mut of_std = None;
     for line in cargo.stdout.take().into_iter().flat_map(|out| BufReader::new(out).lines()).map_while(Result::ok) {
-        // What is not JSON was printed by a build script or a proc macro.
+        // Lines that are not JSON were printed by a build script or a proc macro.
         let Ok(json) = Json::parse(&line) else { continue };
         let (message, package) = (json.get("message"), json.get("package_id").str().unwrap_or_default());
         has_error |= message.get("level").str() == Some("error");
@@ -35,7 +35,7 @@ pub(crate) fn run(command: &mut Command, doing: &str, graph: &Workspace, from: &
         if package == from.id && of_std.is_none() {
             of_std = message.get("message").str().and_then(OfStd::missing);
         }
-        // Without the standard library, nothing else that is said of a crate is of use.
+        // Whatever else the compiler says of a crate that lacks the standard library only follows from that.
         if let Some(text) = message.get("rendered").str().filter(|_| !without_std.iter().any(|id| id == package)) {
             eprint!("{text}");
         }
@@ -50,7 +50,7 @@ pub(crate) fn run(command: &mut Command, doing: &str, graph: &Workspace, from: &
     }
 }
 
-/// A name of the standard library that a shader crate uses, and what programs have in its place.
+/// A name of the standard library that a shader crate uses, and what to write instead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OfStd {
     /// As it is written: `println!`.
@@ -60,7 +60,7 @@ pub struct OfStd {
 }
 
 impl OfStd {
-    /// Of the message that such a name is not there.
+    /// Recognised by the compiler's message that such a name can't be found.
     fn missing(message: &str) -> Option<Self> {
         const SHOW: &str = "write numbers to a `SliceMut` of the launch parameters, which the host reads and prints";
         const TEXT: &str = "programs make no text: say a number, or throw a variant of a `UserException`";

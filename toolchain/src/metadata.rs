@@ -12,7 +12,7 @@ use crate::util;
 /// A package of a workspace or of a dependency graph.
 #[derive(Clone, Debug)]
 pub struct Package {
-    /// What cargo calls it in its messages.
+    /// Its package id: what cargo calls it in its messages.
     pub(crate) id: String,
     /// Its name in the manifest: `my-shaders`.
     pub name: String,
@@ -32,13 +32,13 @@ pub struct Package {
     pub(crate) implied: Vec<(String, Vec<String>)>,
     /// Whether it is a proc macro.
     pub(crate) is_macro: bool,
-    /// Those of its features that are on, in a dependency graph.
+    /// Its features that are on. Known in a dependency graph only, as are the next two fields.
     pub(crate) enabled: Vec<String>,
-    /// The ids of the packages that its code uses, in a dependency graph.
+    /// The packages that its code uses.
     pub(crate) uses: Vec<String>,
-    /// The packages that it depends on, build dependencies included and those of tests not, in a dependency graph.
+    /// The packages that it depends on, including those of its build script, but not of its tests.
     pub(crate) links: Vec<Link>,
-    /// The names of the packages that its manifest asks for, each with the source that it is asked of: `None` for a path.
+    /// The packages that its manifest names, each with the source that it names. `None` for a path.
     pub(crate) asks: Vec<(String, Option<String>)>,
 }
 
@@ -108,7 +108,7 @@ impl Package {
         self.manifest.parent().unwrap_or(&self.manifest)
     }
 
-    /// These features of it with those that they switch on, in order.
+    /// These features with the ones that they switch on, in order.
     pub(crate) fn with_implied(&self, features: Vec<String>) -> Vec<String> {
         let mut on = features;
         let mut at = 0;
@@ -151,7 +151,7 @@ impl Package {
 /// The source of packages of crates.io.
 pub(crate) const CRATES_IO: &str = "registry+https://github.com/rust-lang/crates.io-index";
 
-/// A dependency in a manifest: whose, and of which source.
+/// A dependency in a manifest: the package's name and its source.
 fn asked(dependency: &Json) -> Option<(String, Option<String>)> {
     Some((dependency.get("name").str()?.to_string(), dependency.get("source").str().map(str::to_string)))
 }
@@ -204,7 +204,7 @@ impl Workspace {
 
     fn read(mut command: Command, doing: &str) -> Result<Self, Error> {
         command.args(["--quiet", "--format-version", "1"]);
-        // The caller wants to know where its own builds go.
+        // The variable would otherwise change the answer to where the user's own builds go.
         for name in ["CARGO_TARGET_DIR", "CARGO_BUILD_TARGET_DIR"] {
             let dir = std::env::var_os(name).and_then(|dir| std::path::absolute(dir).ok());
             command.envs(dir.map(|dir| (name, dir)));
@@ -227,7 +227,7 @@ impl Workspace {
         })
     }
 
-    /// The packages whose code is a part of the package `from`, each at the end of the shortest way to it.
+    /// For each package whose code becomes a part of the package `from`, the shortest way to it over dependencies.
     pub(crate) fn ways(&self, from: &Package) -> Vec<Vec<&Package>> {
         let mut ways: Vec<Vec<&Package>> = self.packages.iter().filter(|p| p.id == from.id).map(|p| vec![p]).collect();
         let mut at = 0;

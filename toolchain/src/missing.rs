@@ -1,7 +1,8 @@
-//! Which crate, function and line asks for what the device does not have.
+//! Finds which crate, function and line uses something that the device does not have.
 //!
-//! After optimisation a missing function is called from an entry, where everything was inlined. But LLVM IR with line
-//! information has for each instruction the chain of functions that it comes from, so the crate is compiled again that way.
+//! After optimisation, everything is inlined into the entry, so the PTX only tells that an entry calls the missing
+//! function. But LLVM IR with line information tells for each instruction which functions it was inlined from. So the
+//! crate is compiled again that way.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -18,9 +19,9 @@ use crate::wrapper::NO_HEAP;
 pub struct Culprit {
     /// What is missing.
     pub what: Missing,
-    /// The function that uses it: the innermost one of a package.
+    /// The function that uses it. It is the innermost one that is in a package, and not in the standard library.
     pub at: SourceLocation,
-    /// Where the shader crate comes to that, if it is in another package.
+    /// The function of the shader crate that leads there, if the use is in another package.
     pub from: Option<SourceLocation>,
 }
 
@@ -30,11 +31,11 @@ pub struct Culprit {
 pub enum Missing {
     /// Memory that is allocated at run time.
     Heap,
-    /// The function of this name.
+    /// A function with this name, which is defined nowhere.
     Function(String),
     /// Calls through pointers.
     Pointers,
-    /// A function that calls itself, and device functions.
+    /// A function that calls itself and also calls device functions.
     Recursion,
     /// Conversions between floats and 128-bit integers.
     WideConversion,
@@ -118,12 +119,12 @@ impl Missing {
         }
     }
 
-    /// What an unresolved symbol in PTX stands for.
+    /// What is missing if this symbol is unresolved in the PTX.
     pub(crate) fn of_symbol(symbol: &str) -> Self {
         if symbol == NO_HEAP { Self::Heap } else { Self::Function(symbol.to_string()) }
     }
 
-    /// Whether the instruction, which is in that function, uses what is missing.
+    /// Whether the instruction, which is in that function, uses the thing that is missing.
     fn is_used(&self, function: &Function, instruction: &Instruction) -> bool {
         const WIDE: Type = Type::Int(128);
         match (self, &instruction.op) {
@@ -144,7 +145,7 @@ impl Missing {
     }
 }
 
-/// Whether a call is of that function, or is given its address.
+/// Whether the call calls that function, or passes its address.
 fn names(call: &Call, symbol: &str) -> bool {
     let mut found = call.name() == Some(symbol);
     let arguments = call.arguments.iter().map(|argument| &argument.value.value);

@@ -16,7 +16,7 @@ use crate::util;
 /// Turing needs an older architecture here (OptiX 9 on driver 580 takes them from Maxwell, `sm_50`, on).
 pub const DEFAULT_ARCH: &str = "sm_75";
 
-/// What makes PTX.
+/// Which code generator writes the PTX.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Codegen {
     /// `rustc`'s own NVPTX back end.
@@ -60,16 +60,16 @@ pub struct Shaders {
     pub(crate) prec_sqrt: bool,
     pub(crate) libdevice: bool,
     pub(crate) line_info: bool,
-    /// None: as the profile of the program that is built.
+    /// `None` for the checks of the profile that the program is built with.
     pub(crate) checks: Option<bool>,
-    /// None: as the program that is built has them.
+    /// `None` for the features with which the program uses the crate.
     pub(crate) features: Option<Vec<String>>,
     pub(crate) default_features: Option<bool>,
     pub(crate) profile: Option<String>,
     pub(crate) locked: bool,
     pub(crate) cargo_options: Vec<OsString>,
     pub(crate) quiet: bool,
-    /// The build of the program, if this is a build script's.
+    /// The build of the program, if a build script asks for the shaders.
     pub(crate) outer: Option<Outer>,
 }
 
@@ -104,7 +104,7 @@ impl Shaders {
         self
     }
 
-    /// What makes the PTX. Default: [`Codegen::Rustc`].
+    /// The code generator that writes the PTX. Default: [`Codegen::Rustc`].
     pub fn codegen(mut self, codegen: Codegen) -> Self {
         self.codegen = codegen;
         self
@@ -149,8 +149,9 @@ impl Shaders {
         self
     }
 
-    /// Whether arithmetic that overflows and a `debug_assert!` that fails end the program, as `overflow-checks` and
-    /// `debug-assertions` of a profile. Default: as the [profile](Self::profile) says for each crate. Indices are checked always.
+    /// Whether arithmetic that overflows, and a `debug_assert!` that fails, ends the program, as `overflow-checks` and
+    /// `debug-assertions` do in a profile. Default: what the [profile](Self::profile) says for each crate. Indices are
+    /// always checked.
     pub fn checks(mut self, on: bool) -> Self {
         self.checks = Some(on);
         self
@@ -170,35 +171,35 @@ impl Shaders {
         self
     }
 
-    /// The profile of the user's workspace that says which [checks](Self::checks) there are; PTX is optimised in any case.
-    /// Default: `release`. A build script does not ask: it is that of the program.
+    /// The profile of the user's workspace that says which [checks](Self::checks) there are; PTX is optimised in any
+    /// case. Default: `release`. In a build script this has no effect: the program's own profile counts.
     pub fn profile(mut self, name: impl Into<String>) -> Self {
         self.profile = Some(name.into());
         self
     }
 
-    /// Whether it is an error if the lock file of the user's workspace is missing or out of date: cargo's `--locked`. Default:
-    /// false. A build script does not ask: there it is one.
+    /// Whether it is an error if the lock file of the user's workspace is missing or out of date: cargo's `--locked`.
+    /// Default: false. In a build script it is always an error.
     pub fn locked(mut self, on: bool) -> Self {
         self.locked = on;
         self
     }
 
-    /// Options for every cargo that has a part in the build, such as `--offline` and `--config=KEY=VALUE`. A build script does
-    /// not ask: they are those of the cargo that runs it.
+    /// Options for every cargo that takes part in the build, such as `--offline` and `--config=KEY=VALUE`. In a build
+    /// script this has no effect: the options of the cargo that runs it count.
     pub fn cargo_options<S: Into<OsString>>(mut self, options: impl IntoIterator<Item = S>) -> Self {
         self.cargo_options = options.into_iter().map(Into::into).collect();
         self
     }
 
-    /// The features that were chosen, as options of cargo.
+    /// The chosen features as command-line options of cargo.
     pub(crate) fn feature_options(&self) -> Vec<String> {
         let without_default = self.default_features == Some(false);
         let features = self.features.as_ref().map(|features| format!("--features={}", features.join(",")));
         without_default.then(|| "--no-default-features".to_string()).into_iter().chain(features).collect()
     }
 
-    /// The profile that says what is checked.
+    /// The profile that says which run-time checks there are.
     pub(crate) fn profile_name(&self) -> &str {
         let chosen = || self.profile.as_deref().unwrap_or("release");
         self.outer.as_ref().map_or_else(chosen, |outer| &outer.profile)
@@ -215,8 +216,9 @@ impl Shaders {
         crate::build_script::compile(&self);
     }
 
-    /// Compiles it from any other program. `area` is a folder for intermediate files: calls with the same one share
-    /// the work that is common to them. Cargo decides what there is to do; nothing changed costs about 0.6 s.
+    /// Compiles it from any other program. `area` is a folder for intermediate files: calls with the same one share the
+    /// work that is common to them. Cargo decides what has to be done; a call when nothing has changed takes about 0.6
+    /// s.
     ///
     /// ```no_run
     /// let built = optix_toolchain::Shaders::new("shaders").compile_in("target/optix")?;
@@ -227,21 +229,22 @@ impl Shaders {
         device_build::build(self, area.as_ref())
     }
 
-    /// Switches of LLVM's, for what is different about OptiX.
+    /// Options of LLVM for what is different about OptiX.
     const LLVM: [&str; 5] = [
-        // It inlines every function anyway; called ones would only pass values through memory until then.
+        // OptiX inlines every function anyway. Until it does, a function that is called would only pass its values
+        // through memory.
         "-inline-threshold=100000",
-        // Threads part at a branch, so conditions are joined where that costs a few instructions.
+        // Threads diverge at a branch, so conditions are joined where that costs a few instructions.
         "-bonus-inst-threshold=10",
-        // A peeled loop has its trace calls twice, and each of those is a place where a program is cut in two.
+        // If a loop is peeled, its trace calls are there twice, and OptiX cuts a program in two at each of them.
         "-unroll-peel-max-count=0",
-        // What is computed in front of a trace call stays there. Behind it, all that it is made of would have to be kept
-        // in memory over the call.
+        // What is computed before a trace call stays there. If it moved behind the call, all the values that it is made
+        // of would have to be kept in memory across the call.
         "-instcombine-code-sinking=false",
         "-disable-machine-sink",
     ];
 
-    /// What `rustc` is given for each crate of the device build, for its own code generator.
+    /// The options of `rustc` for each crate of the device build, for its own code generator.
     pub(crate) fn rustflags(&self) -> Vec<String> {
         let mut llvm = Self::LLVM.join(" ");
         llvm.push_str(&format!(" -nvptx-fma-level={}", if self.fmad { 2 } else { 0 }));
@@ -252,21 +255,23 @@ impl Shaders {
         if !self.prec_sqrt {
             llvm.push_str(" -nvptx-prec-sqrtf32=0");
         }
-        // For our `libm`.
+        // Our `libm` asks for this.
         let libm = [(!self.prec_sqrt, "--cfg=optix_approximate_sqrt"), (self.libdevice, "--cfg=optix_libdevice")];
         let libm = libm.into_iter().filter(|(is_set, _)| *is_set).map(|(_, flag)| flag.to_string());
         let flags = [
             format!("-Ctarget-cpu={}", self.arch),
             // An indirect branch costs a GPU more than a few comparisons.
             "-Cjump-tables=no".into(),
-            // `core`'s checks of what `unsafe` code promises, which `debug-assertions` would switch on, keep payloads in memory.
+            // `debug-assertions` would also switch on `core`'s checks of preconditions of `unsafe` functions. They keep
+            // payloads in memory.
             "-Zub-checks=no".into(),
             format!("-Cllvm-args={llvm}"),
         ];
         flags.into_iter().chain(libm).chain(PANIC.map(String::from)).collect()
     }
 
-    /// Tells builds apart whose intermediate files must not be mixed: of which crate, in which workspace, with which features.
+    /// A key that differs between builds whose intermediate files must not be mixed: for the crate, its workspace and
+    /// its features.
     pub(crate) fn key(&self, dir: &Path, root: &Path, features: &[String]) -> String {
         let maths = [self.fmad, self.ftz, self.prec_div, self.prec_sqrt, self.libdevice, self.line_info];
         let switches = format!("{maths:?}{:?}{:?}{}", self.checks, self.codegen, self.profile_name());

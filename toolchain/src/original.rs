@@ -22,18 +22,20 @@ use crate::util::toml_string;
 pub(crate) struct Original {
     /// Where cargo runs.
     pub place: Place,
-    /// With dependencies.
+    /// The workspace with all dependencies.
     pub workspace: Workspace,
     /// The shader crate.
     pub shaders: Package,
-    /// Whether it is a member: its features can be chosen then.
+    /// Whether the shader crate is a member of the workspace. If so, its features can be chosen.
     pub is_member: bool,
-    /// Whether cargo must leave the lock file as it is: it is that of a build which has begun, or that was asked for.
+    /// Whether cargo must leave the lock file as it is: because a build that uses it is under way, or because the user
+    /// said `--locked`.
     pub is_locked: bool,
 }
 
 impl Original {
-    /// The workspace of the package that is being built if the shader crate is a part of that, otherwise the shader crate's own.
+    /// The workspace of the package that is being built, if the shader crate is a part of it; otherwise the shader
+    /// crate's own.
     pub fn find(shaders: &Shaders) -> Result<Self, Error> {
         let path = &shaders.path;
         let not = |lacks| Error::NotAShaderCrate { path: path.to_path_buf(), lacks };
@@ -64,7 +66,7 @@ impl Original {
         Self::new(place, workspace, &dir, is_locked).ok_or_else(|| not(Lacking::Package))
     }
 
-    /// In the workspace of the package that is being built. None: the shader crate is not a part of it.
+    /// In the workspace of the package that is being built. `None` if the shader crate is not a part of it.
     fn of_outer(outer: &Outer, shaders: &Shaders, dir: &Path) -> Result<Option<Self>, Error> {
         let folder = outer.manifest.parent().unwrap_or(&outer.manifest);
         let manifests = Workspace::at(&Place { dir: folder.to_path_buf(), options: outer.options.clone() })?;
@@ -73,7 +75,7 @@ impl Original {
         let is_locked = manifests.root.join("Cargo.lock").is_file();
         let mut args = outer.feature_options(shaders, dir, &manifests);
         args.extend(is_locked.then(|| "--locked".to_string()));
-        // The host's as well: it may use the shader crate on some targets only.
+        // The dependencies for the host's target as well: the program may use the shader crate on some targets only.
         let host = std::env::var("TARGET").unwrap_or_default();
         args.extend((!host.is_empty()).then(|| format!("--filter-platform={host}")));
         let args: Vec<&str> = args.iter().map(String::as_str).collect();
@@ -82,20 +84,21 @@ impl Original {
     }
 
     fn new(place: Place, workspace: Workspace, dir: &Path, is_locked: bool) -> Option<Self> {
-        // Cargo may have another name for the folder, by way of a link.
+        // Cargo may know the folder by another path, through a symbolic link.
         let is_it = |package: &&Package| std::fs::canonicalize(package.dir()).is_ok_and(|real| real == dir);
         let shaders = workspace.packages.iter().filter(|package| package.source.is_none()).find(is_it)?.clone();
         let is_member = workspace.members.contains(&shaders.id);
         Some(Self { place, workspace, shaders, is_member, is_locked })
     }
 
-    /// What cargo would compile of the program that is built, if the shader crate is a part of that.
+    /// The units that cargo would compile for the program that is built; none if the shader crate is not among them.
     pub fn units_of_host(&self, outer: &Outer, compiler: &DeviceCompiler, area: &Path) -> Result<Vec<Unit>, Error> {
         let is_it = |package: &&Package| package.manifest == outer.manifest;
         let Some(host) = self.workspace.packages.iter().find(is_it) else { return Ok(Vec::new()) };
         let features: Vec<&str> = outer.features(host).collect();
         let mut command = self.build(host, &outer.profile, &features, &area.join("host"));
-        // This one has the sources of its library, which configuration files for a nightly cargo may ask for.
+        // Configuration files for a nightly cargo may ask for `build-std`, which needs the library sources that this
+        // compiler has.
         compiler.used_by(&mut command);
         command.args(outer.target.iter().flat_map(|target| ["--target", target]));
         let mut units = units::units(&mut command, &format!("finding out how {} is compiled", outer.name))?;
@@ -121,7 +124,7 @@ impl Original {
 
     /// The manifests and configuration files that the build depends on.
     pub fn settings(&self) -> Vec<PathBuf> {
-        // Every member may have a say in features.
+        // Any member of the workspace may switch on features.
         let members = self.workspace.members.iter().filter_map(|id| self.workspace.package(id));
         let mut files: Vec<PathBuf> = members.map(|package| package.manifest.clone()).collect();
         files.extend([self.workspace.root.join("Cargo.toml"), self.lock()]);
@@ -132,8 +135,8 @@ impl Original {
         files
     }
 
-    /// The entries of `[patch]` with which another workspace resolves to the same packages: every package that comes from
-    /// elsewhere than the manifest that depends on it says.
+    /// The entries of `[patch]` with which another workspace resolves to the same packages. There is one for every
+    /// package that does not come from where the manifest that depends on it says.
     pub fn patches(&self) -> Vec<Patch> {
         let mut patches: Vec<Patch> = Vec::new();
         let mut seen = vec![self.shaders.id.clone()];
@@ -161,7 +164,8 @@ impl Original {
         patches
     }
 
-    /// The features that the device build has to switch on: those with which the host uses the crate, or else the chosen ones.
+    /// The features that the device build has to switch on: those with which the host uses the crate, or the chosen
+    /// ones if the host does not use it.
     pub fn features(&self, shaders: &Shaders, of_host: &[Unit]) -> Result<Vec<String>, Error> {
         let is_it = |unit: &&Unit| unit.package == self.shaders.id && unit.is_library(None);
         let chosen = || {
@@ -191,7 +195,7 @@ impl Original {
         Ok(unit.features.clone())
     }
 
-    /// What is checked in the shader crate, and in the packages of the device build where that is something else.
+    /// The run-time checks of the shader crate, and those of the packages of the device build that have others.
     pub fn checks(&self, units: &[Unit], target: Option<&str>, device: &Workspace) -> (Checks, Vec<(String, Checks)>) {
         let of = |package: &Package| {
             let unit = units.iter().find(|unit| unit.package == package.id && unit.is_library(target));
@@ -207,7 +211,7 @@ impl Original {
         (own, others.collect())
     }
 
-    /// How the graph of a device build differs. Empty: it is made from the same packages.
+    /// How the dependency graph of a device build differs. Empty if it has the same packages.
     pub fn differences(&self, device: &Workspace) -> Vec<Difference> {
         let Some(shaders) = device.packages.iter().find(|package| package.is_same(&self.shaders)) else {
             return vec![Difference::NotOnDevice { package: self.shaders.name.clone() }];
@@ -237,7 +241,8 @@ impl Original {
         differences
     }
 
-    /// How features differ between what cargo would compile of the shader crate in the user's workspace and in the device build's.
+    /// How features differ between what cargo would compile of the shader crate in the user's workspace, and in the
+    /// device build's.
     pub fn feature_differences(&self, theirs: &[Unit], device: &Workspace, ours: &[Unit]) -> Vec<Difference> {
         let mut differences = Vec::new();
         for our in ours {
@@ -269,11 +274,11 @@ impl Original {
 pub(crate) struct Patch {
     /// The source that is patched: `crates-io`, or the address of a registry or repository.
     of: String,
-    /// What is taken.
+    /// The package that is taken instead.
     package: Package,
 }
 
-/// The tables of these patches in a manifest, `libm` included.
+/// The `[patch]` tables for a manifest, including the one for `libm`.
 pub(crate) fn patch_tables(patches: &[Patch], libm: Option<&Path>) -> String {
     let mut text = String::new();
     let mut sources: Vec<&str> = patches.iter().map(|patch| patch.of.as_str()).collect();
@@ -284,7 +289,8 @@ pub(crate) fn patch_tables(patches: &[Patch], libm: Option<&Path>) -> String {
         _ = write!(text, "\n[patch.{}]\n", toml_string(source));
         let mut names: Vec<&str> = Vec::new();
         for Patch { package, .. } in patches.iter().filter(|patch| patch.of == source) {
-            // By its own name, so that one in a configuration file takes its place instead of being a second one.
+            // The entry has the package's own name, so that an entry in a configuration file replaces it and does not
+            // become a second one.
             let count = names.iter().filter(|name| **name == package.name).count();
             names.push(&package.name);
             let key = if count == 0 { package.name.clone() } else { format!("{}-{count}", package.name) };
@@ -305,7 +311,7 @@ pub(crate) fn patch_tables(patches: &[Patch], libm: Option<&Path>) -> String {
 
 const CRATES_IO_NAME: &str = "crates-io";
 
-/// What a manifest says to get exactly this package.
+/// The fields of a manifest's dependency that ask for exactly this package.
 pub(crate) fn taken_from(package: &Package) -> String {
     let version = format!("version = \"={}\"", package.version.split('+').next().unwrap_or_default());
     let Some(source) = package.source.as_deref() else {
@@ -324,7 +330,7 @@ pub(crate) fn taken_from(package: &Package) -> String {
     }
 }
 
-/// The text of a query, in which cargo writes all but letters and digits as `%2F`.
+/// Decodes the text of a URL's query, in which cargo writes everything but letters and digits like `%2F`.
 fn decoded(text: &str) -> String {
     let mut bytes = Vec::new();
     let mut rest = text.as_bytes();
@@ -344,12 +350,12 @@ fn decoded(text: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// A source without the commit that a lock file adds.
+/// A source without the commit, which lock files add.
 fn without_revision(source: &str) -> &str {
     source.split('#').next().unwrap_or(source)
 }
 
-/// How `[patch]` names the source that a manifest asks for.
+/// The name that `[patch]` has for a source.
 fn patched(source: &str) -> String {
     if source == CRATES_IO {
         return CRATES_IO_NAME.to_string();

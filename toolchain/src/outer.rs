@@ -1,8 +1,9 @@
-//! The build that a build script is a part of.
+//! The build of the host program, which a build script is a part of.
 //!
-//! A device build is to read the same configuration and see the same features as the build of the host program. Cargo tells
-//! a build script the package, its features and the flags, but not where it was started, which decides about
-//! configuration files, nor its options, such as `--config`. On Linux the system tells those.
+//! A device build has to read the same configuration and see the same features as the build of the host program. Cargo
+//! tells a build script the package, its features and the flags. It does not tell where it was started, which decides
+//! which configuration files count, nor options such as `--config`. On Linux these are read from the process that runs
+//! the build script.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -23,11 +24,11 @@ pub(crate) struct Outer {
     pub features: Vec<String>,
     /// The profile's name.
     pub profile: String,
-    /// The target, where that is not the host.
+    /// The target, if it is not the host itself.
     pub target: Option<String>,
     /// Where cargo was started, if that is known.
     pub dir: Option<PathBuf>,
-    /// What cargo was told that nested cargos have to be told.
+    /// Those of cargo's options that nested cargos have to be given too.
     pub options: Vec<OsString>,
 }
 
@@ -52,12 +53,12 @@ impl Outer {
         })
     }
 
-    /// Whether a part of the configuration is on the command line.
+    /// Whether the command line of cargo has `--config`.
     pub fn has_configuration(&self) -> bool {
         self.options.iter().any(|option| option.to_string_lossy().starts_with("--config"))
     }
 
-    /// The options of cargo that switch the package's features on, and those of the shader crate in `dir`.
+    /// The options with which cargo switches on the features of the package, and those of the shader crate in `dir`.
     pub fn feature_options(&self, shaders: &Shaders, dir: &Path, manifests: &Workspace) -> Vec<String> {
         let mut on = Vec::new();
         for package in &manifests.packages {
@@ -83,7 +84,8 @@ impl Outer {
     }
 }
 
-/// The name of the profile whose output folder has `out_dir`. `PROFILE` is that of the profile which it inherits.
+/// The name of the profile whose output folder has `out_dir`. (`PROFILE` only tells `debug` or `release`, from which a
+/// custom profile inherits.)
 fn profile(out_dir: &Path, base: &str) -> String {
     let build = out_dir.ancestors().find(|dir| dir.file_name().is_some_and(|name| name == "build"));
     let folder = build.and_then(Path::parent).and_then(Path::file_name).and_then(|name| name.to_str());
@@ -121,13 +123,13 @@ fn options(mut words: impl Iterator<Item = OsString>) -> Vec<OsString> {
     let mut options = Vec::new();
     while let Some(word) = words.next() {
         let text = word.to_string_lossy().into_owned();
-        // `--frozen` and `--locked` speak of the user's lock file, and the nested package has one of its own.
+        // `--frozen` and `--locked` are about the user's lock file, and the nested package has its own.
         match text.as_str() {
             "--" => break,
             "--config" => options.extend([Some(word), words.next()].into_iter().flatten()),
             "--offline" => options.push(word),
             "--frozen" => options.push("--offline".into()),
-            // `core` is made otherwise.
+            // `-Zbuild-std` and its like do not count: the toolchain compiles `core` itself.
             "-Z" => match words.next() {
                 Some(flag) if !flag.to_string_lossy().starts_with("build-std") => options.extend([word, flag]),
                 _ => {}
@@ -140,7 +142,8 @@ fn options(mut words: impl Iterator<Item = OsString>) -> Vec<OsString> {
     options
 }
 
-/// What of the user's `RUSTFLAGS` says which code is compiled, and not how for the host's processor.
+/// Those of the user's `RUSTFLAGS` that decide which code is compiled. Those that tell how to compile for the host's
+/// processor are left out.
 pub(crate) fn flags() -> Vec<String> {
     let encoded = std::env::var("CARGO_ENCODED_RUSTFLAGS");
     match (encoded, std::env::var("RUSTFLAGS")) {

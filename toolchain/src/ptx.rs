@@ -1,4 +1,4 @@
-//! Whether OptiX could load a PTX module, and what it keeps in memory.
+//! Checks whether OptiX could load a PTX module, and finds what a module keeps in local memory.
 
 pub(crate) mod builtins;
 pub mod forbidden;
@@ -10,7 +10,7 @@ use optix_ptx::{Call, Function, Module};
 
 pub use forbidden::Forbidden;
 
-/// What give the addresses of callables.
+/// The device functions that return the address of a callable.
 pub(crate) const DIRECT: &str = "_optix_call_direct_callable";
 pub(crate) const CONTINUATION: &str = "_optix_call_continuation_callable";
 
@@ -20,13 +20,13 @@ pub(crate) const CONTINUATION: &str = "_optix_call_continuation_callable";
 pub enum Problem {
     /// It has no entry point.
     NoEntry,
-    /// It calls or reads what is defined nowhere.
+    /// It calls functions or reads variables that are defined nowhere.
     Unresolved(Vec<String>),
-    /// These functions call others through pointers, which are not those of callables.
+    /// These functions call others through pointers that are not addresses of callables.
     Pointers(Vec<String>),
-    /// This function calls itself, perhaps by way of others, and OptiX's device functions.
+    /// This function calls itself, directly or through others, and also calls device functions of OptiX.
     Recursion(String),
-    /// It has what OptiX forbids.
+    /// It has instructions that OptiX forbids.
     Forbidden(Vec<Forbidden>),
     /// It is no PTX.
     NotPtx,
@@ -65,7 +65,7 @@ impl fmt::Display for Problem {
 
 impl std::error::Error for Problem {}
 
-/// Whether OptiX could load a module: it has an entry point and everything that it uses.
+/// Checks that OptiX could load a module: it has an entry point, and defines everything that it uses.
 ///
 /// ```
 /// let module = optix_ptx::Module::read(".version 6.3\n.target sm_75\n.extern .func missing();\n");
@@ -97,7 +97,8 @@ pub fn check(module: &Module<'_>) -> Result<(), Problem> {
     }
 }
 
-/// What in a module works, but not as it is written, each with the function that it is in.
+/// Instructions and registers of a module that OptiX accepts, but that do something else than they seem to, each with
+/// the function that has it.
 ///
 /// ```
 /// let text = ".visible .entry __miss__x()\n{\n\tmov.u32 %r1, %tid.x;\n}\n";
@@ -109,7 +110,7 @@ pub fn suspicious(text: &str) -> Vec<Forbidden> {
     found.into_iter().filter(|one| !one.why.is_error()).collect()
 }
 
-/// The entries and functions that keep something in local memory, with the bytes: memory where registers should be.
+/// The entries and functions that keep values in local memory, which is slower than registers, with the bytes.
 ///
 /// ```
 /// let text = ".visible .entry __miss__x()\n{\n\t.local .align 4 .b8 \t__local_depot0[16];\n\tret;\n}\n";
@@ -133,13 +134,13 @@ pub(crate) fn is_callable_call(call: &Call<'_>) -> bool {
     matches!(call.function, DIRECT | CONTINUATION)
 }
 
-/// Whether a function calls others through pointers. One that asks for callables may.
+/// Whether a function calls others through pointers. One that asks OptiX for the address of a callable may do so.
 fn calls_pointers(function: &Function<'_>) -> bool {
     let calls = function.calls();
     calls.iter().any(|call| call.function.starts_with('%')) && !calls.iter().any(is_callable_call)
 }
 
-/// Whether a function calls itself, perhaps by way of others, and device functions.
+/// Whether a function calls itself, directly or through others, and also calls device functions.
 fn is_recursive(module: &Module<'_>, function: &Function<'_>) -> bool {
     let reached = module.reached(function.name);
     let calls = |is: &dyn Fn(&str) -> bool| reached.iter().flat_map(|f| f.calls()).any(|call| is(call.function));

@@ -1,7 +1,7 @@
 //! The third code generator: `rustc_codegen_nvvm` of the Rust-CUDA project, where a user has it.
 //!
-//! It is a library for one particular nightly `rustc`, which loads it in place of LLVM: it makes LLVM 7's IR of MIR and
-//! calls libNVVM itself. Which `rustc` it is for, it says by the name of the library that it is linked with.
+//! It is a library for one particular nightly `rustc`, which loads it in place of LLVM. It turns MIR into LLVM 7's IR
+//! and calls libNVVM itself. The name of the compiler library that it is linked with tells which `rustc` it is for.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -108,9 +108,9 @@ impl Backend {
         Ok(Self { library, compiler })
     }
 
-    /// What `rustc` is given for `core` and every other crate of the device build.
+    /// The options of `rustc` for `core` and every other crate of the device build.
     pub(crate) fn flags(&self, shaders: &Shaders) -> Vec<String> {
-        // It takes libNVVM's options where they are not the default, and no others.
+        // The generator passes these to libNVVM. It accepts only options that differ from the default.
         let mut options = vec![format!("-arch={}", shaders.arch.replacen("sm_", "compute_", 1))];
         let switches =
             [("-ftz=1", shaders.ftz), ("-prec-sqrt=0", !shaders.prec_sqrt), ("-prec-div=0", !shaders.prec_div)];
@@ -125,16 +125,17 @@ impl Backend {
     }
 }
 
-/// What crates are given so that entries may have [the attributes](prepare) that the generator knows them by.
+/// Attributes that crates are compiled with, so that entries may have [the attributes](prepare) by which the generator
+/// recognises them.
 pub(crate) const ENTRY_ATTRIBUTES: [&str; 2] = ["feature(register_tool)", "register_tool(nvvm_internal)"];
 
 /// Prepares cargo for the generator.
 pub(crate) fn prepare(cargo: &mut Command) {
-    // It can't optimise over crates before it links, and links no static library.
+    // It can't optimise across crates before it links, and can't link a static library.
     cargo.env(format!("CARGO_PROFILE_{}_LTO", PROFILE.to_uppercase()), "off").args(["--crate-type", "cdylib"]);
-    // The macros mark entries.
+    // This variable makes the macros mark the entries.
     cargo.env("OPTIX_ENTRIES", "rustc_codegen_nvvm");
-    // libNVVM, which it is linked with, is where the user says.
+    // It is linked with libNVVM, which the user's library path finds.
     if let Some(path) = std::env::var_os(LIBRARY_PATH) {
         cargo.env(LIBRARY_PATH, path);
     }
@@ -162,7 +163,7 @@ fn driver_of(library: &[u8]) -> Option<&str> {
 mod tests {
     use super::*;
 
-    /// A file with these bytes, to be taken for the generator.
+    /// A file with these bytes that stands for the generator.
     fn stub(name: &str, bytes: &[u8]) -> PathBuf {
         let dir = std::env::temp_dir().join(format!("optix-rust-cuda-{}-{name}", std::process::id()));
         std::fs::create_dir_all(&dir).expect("writable");

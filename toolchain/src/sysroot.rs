@@ -13,16 +13,16 @@ use crate::compiler::{DeviceCompiler, LIBRARY_PATH, TARGET};
 use crate::error::{Doing, Error};
 use crate::util;
 
-/// What every crate of a device build is compiled with: a panic is a trap, and its message is not even made.
+/// Options of every crate of a device build: a panic becomes a trap, and its message is not even formatted.
 pub(crate) const PANIC: [&str; 2] = ["-Zunstable-options", "-Cpanic=immediate-abort"];
 
 /// How the crates of the sysroot are compiled by any code generator.
 const FLAGS: [&str; 5] =
     ["--cap-lints=allow", "-Cpanic=abort", "-Copt-level=3", "-Cmetadata=optix", "-Zforce-unstable-if-unmarked"];
 
-/// `rustc` links every `no_std` crate to a crate of this name. Its functions would not reach the PTX (it never takes
-/// part in link-time optimisation), so an empty one does; a symbol that would have come from it is reported as
-/// unresolved by the check of the PTX.
+/// `rustc` links every `no_std` crate to `compiler_builtins`. Its functions could not reach the PTX, because it never
+/// takes part in link-time optimisation, so an empty one is enough. If the PTX uses a symbol of the real one, the check
+/// of the PTX reports it as unresolved.
 const COMPILER_BUILTINS: &str = "#![no_std]\n#![feature(compiler_builtins)]\n#![compiler_builtins]\n";
 
 const ALLOC: &str = "liballoc.rlib";
@@ -44,8 +44,8 @@ pub(crate) struct Sysroot {
 }
 
 impl Sysroot {
-    /// Where it is or will be: in the user's cache, which all projects share, or in `area` where that can't be written.
-    /// `generator` selects a code generator other than `rustc`'s.
+    /// Where the sysroot is or will be: in the user's cache, which all projects share, or in `area` if the cache can't
+    /// be written. `generator` is the key of a code generator other than `rustc`'s.
     pub fn new(
         compiler: &DeviceCompiler,
         arch: &str,
@@ -66,7 +66,7 @@ impl Sysroot {
                 ]);
                 flags.extend(PANIC.map(String::from));
             }
-            // Of the flag's predecessor.
+            // The nightly that the generator is for has this feature of `core` in place of `-Cpanic=immediate-abort`.
             Some(generator) => {
                 flags.extend(generator);
                 flags.push("--cfg=feature=\"panic_immediate_abort\"".into());
@@ -85,7 +85,7 @@ impl Sysroot {
         self.path.is_dir()
     }
 
-    /// Compiles `core`, unless it is there. 18 s of one processor.
+    /// Compiles `core`, unless that was done before. It takes 18 s of one processor.
     pub fn make(&self) -> Result<(), Error> {
         if self.is_made() {
             return Ok(());
@@ -94,7 +94,7 @@ impl Sysroot {
         if self.is_made() {
             return Ok(());
         }
-        // Complete or absent: it is made under another name and renamed.
+        // It is made under another name and then renamed, so that it is either complete or absent.
         let unfinished = self.path.with_extension("part");
         if unfinished.exists() {
             fs::remove_dir_all(&unfinished).doing(|| format!("cannot remove {}", unfinished.display()))?;
@@ -115,7 +115,8 @@ impl Sysroot {
         libraries(&self.path).join(ALLOC).is_file()
     }
 
-    /// Compiles `alloc`, unless it is there. 5 s of one processor, for those only whose crates name it.
+    /// Compiles `alloc`, unless that was done before. It takes 5 s of one processor, and is done only for crates that
+    /// use `alloc`.
     pub fn make_alloc(&self) -> Result<(), Error> {
         let _lock = self.lock()?;
         if self.has_alloc() {
@@ -167,7 +168,7 @@ impl Sysroot {
         format!("{}\n{}", self.compiler.rustc.display(), self.compiler.version)
     }
 
-    /// Removes what nobody can use any more: sysroots of a compiler that is gone, or that is another version now.
+    /// Removes sysroots that nobody can use any more: of compilers that are gone or have another version now.
     fn remove_outdated(&self) {
         let entries = self.path.parent().and_then(|folder| fs::read_dir(folder).ok());
         for folder in entries.into_iter().flatten().flatten().map(|entry| entry.path()) {
@@ -177,7 +178,7 @@ impl Sysroot {
             let rustc = Path::new(made_by.lines().next().unwrap_or_default());
             let is_gone = rustc.is_absolute() && !rustc.is_file();
             if is_gone || (rustc == self.compiler.rustc && made_by != self.made_by()) {
-                // Not worth failing for.
+                // A sysroot that can't be removed does no harm, so errors are ignored.
                 let _ = fs::remove_dir_all(folder);
             }
         }

@@ -1,7 +1,7 @@
 //! What cargo would compile, and how: its unit graph.
 //!
-//! It says what `cargo metadata` does not: which features a package has in this build, where another member of the
-//! workspace may have asked for more, and what the profile makes of each package.
+//! `cargo metadata` does not tell which features a package has in a particular build, where another member of the
+//! workspace may have switched on more, nor what the profile sets for each package. The unit graph does.
 
 use std::process::Command;
 
@@ -18,15 +18,15 @@ pub(crate) struct Unit {
     kind: String,
     /// `build`, `run-custom-build`.
     mode: String,
-    /// The target; none for what runs while compiling.
+    /// The target. `None` for crates that run on the host while compiling, such as proc macros.
     platform: Option<String>,
     /// The features that are on.
     pub features: Vec<String>,
-    /// What of the profile changes what code does.
+    /// The settings of the profile that change what the code does.
     pub checks: Checks,
 }
 
-/// The checks that a profile has compiled.
+/// The run-time checks that a profile switches on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Checks {
     /// `overflow-checks`
@@ -36,7 +36,7 @@ pub(crate) struct Checks {
 }
 
 impl Checks {
-    /// Both or none.
+    /// Both on, or both off.
     pub fn all(on: bool) -> Self {
         Self { overflow: on, assertions: on }
     }
@@ -56,7 +56,7 @@ impl Unit {
         })
     }
 
-    /// One for tests.
+    /// A unit for tests.
     #[cfg(test)]
     pub fn of(package: &str, kind: &str, features: &[&str]) -> Self {
         let features = features.iter().map(ToString::to_string).collect();
@@ -69,16 +69,17 @@ impl Unit {
         (&self.kind, &self.mode, &self.platform) == (&other.kind, &other.mode, &other.platform)
     }
 
-    /// Whether it is a library that becomes a part of a program for this target, or of one for the machine that compiles.
+    /// Whether it is a library that becomes a part of a program for this target, or, for `None`, of one for the machine
+    /// that compiles.
     pub fn is_library(&self, target: Option<&str>) -> bool {
         let is_library = self.mode == "build" && !matches!(self.kind.as_str(), "proc-macro" | "custom-build" | "bin");
         is_library && self.platform.as_deref() == target
     }
 }
 
-/// What a `cargo build` would compile.
+/// The units that a `cargo build` would compile.
 pub(crate) fn units(command: &mut Command, doing: &str) -> Result<Vec<Unit>, Error> {
-    // The option is for nightly compilers otherwise.
+    // Without this variable, only nightly compilers accept the option.
     let is_quiet = command.get_args().any(|arg| arg == "--quiet");
     command.args((!is_quiet).then_some("--quiet"));
     command.args(["--unit-graph", "-Zunstable-options"]).env("RUSTC_BOOTSTRAP", "1");

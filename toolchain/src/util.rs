@@ -22,7 +22,7 @@ pub(crate) fn create_dir(path: &Path) -> Result<(), Error> {
     fs::create_dir_all(path).doing(|| format!("cannot create the folder {}", path.display()))
 }
 
-/// Whether files can be made in a folder, which is made if it is not there.
+/// Whether files can be created in a folder, which is created if it is not there.
 pub(crate) fn is_writable(dir: &Path) -> bool {
     let probe = dir.join(format!(".writable-{}", std::process::id()));
     let writable = create_dir(dir).is_ok() && fs::write(&probe, "").is_ok();
@@ -50,7 +50,7 @@ pub(crate) fn copy_dir(from: &Path, to: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether a Rust source in a folder, or in one inside of it, is such.
+/// Whether `is` holds for the text of a Rust source in a folder, or in a folder inside it.
 pub(crate) fn any_source(dir: &Path, is: &dyn Fn(&str) -> bool) -> bool {
     let entries = fs::read_dir(dir).into_iter().flatten().flatten().map(|entry| entry.path());
     entries.into_iter().any(|path| match path.extension() {
@@ -70,7 +70,8 @@ pub(crate) fn lock(path: &Path) -> Result<File, Error> {
     Ok(file)
 }
 
-/// FNV-1a over the parts, as 16 hexadecimal digits. Names folders: the same on every machine and in every version.
+/// The FNV-1a hash of the parts, as 16 hexadecimal digits. It names folders, so it has to be the same on every machine
+/// and in every version.
 pub(crate) fn hash<'a>(parts: impl IntoIterator<Item = &'a str>) -> String {
     let mut state = 0xcbf2_9ce4_8422_2325_u64;
     for part in parts {
@@ -96,7 +97,8 @@ pub(crate) fn toml_string(text: &str) -> String {
     quoted
 }
 
-/// The target directory that holds `out_dir`: cargo marks it with a `CACHEDIR.TAG`. Without one, `out_dir` itself.
+/// The target directory that holds `out_dir`. Cargo marks it with a `CACHEDIR.TAG`; if there is none, this is `out_dir`
+/// itself.
 pub(crate) fn target_dir(out_dir: &Path) -> PathBuf {
     out_dir.ancestors().find(|dir| dir.join("CACHEDIR.TAG").is_file()).unwrap_or(out_dir).to_path_buf()
 }

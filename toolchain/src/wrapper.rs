@@ -1,9 +1,9 @@
-//! The package around a shader crate.
+//! The generated package around a shader crate.
 //!
-//! A device build needs a profile, a lock file and a patch of its own. Writing those into the user's manifest is out
-//! of the question, so a small package depends on the shader crate by path and links it. Entry points and
-//! `global_asm!` of the shader crate, and of what it depends on, reach the PTX through link-time optimisation. It also has
-//! the allocator that `rustc` expects of a final crate, although there is no heap.
+//! A device build needs its own profile, lock file and patches. It can't write those into the user's manifest, so it
+//! generates a small package that depends on the shader crate by path and links it. Entry points and `global_asm!` of
+//! the shader crate, and of its dependencies, reach the PTX through link-time optimisation. The package also has the
+//! allocator that `rustc` expects of a final crate, although the device has no heap.
 
 use std::path::PathBuf;
 
@@ -20,20 +20,20 @@ pub(crate) const PROFILE: &str = "optix";
 
 const HEAP: &str = include_str!("../templates/heap.rs");
 
-/// The symbol that is left in the PTX where a program asks for memory.
+/// The undefined symbol that is left in the PTX if a program allocates memory.
 pub(crate) const NO_HEAP: &str = "__optix_no_heap";
 
-/// What a generated package has to say so that the shader crate is made of the same as in the user's own build.
+/// What a generated package has to contain, so that the shader crate is compiled as in the user's own build.
 pub(crate) struct Recipe {
     /// The shader crate's features that are on.
     pub features: Vec<String>,
-    /// Where packages come from that do not come from where manifests say.
+    /// The packages that do not come from where manifests say, and where they come from.
     pub patches: Vec<Patch>,
-    /// The version of cargo's way to choose features.
+    /// The version of cargo's feature resolver.
     pub resolver: &'static str,
-    /// What is checked.
+    /// The run-time checks of the shader crate.
     pub checks: Checks,
-    /// The packages, as `glam@0.34.3`, in which something else is.
+    /// Packages such as `glam@0.34.3` that have other checks, with those.
     pub other_checks: Vec<(String, Checks)>,
 }
 
@@ -61,9 +61,9 @@ impl Wrapper {
             .as_deref()
             .ok_or_else(|| Error::NotAShaderCrate { path: package.dir().to_path_buf(), lacks: Lacking::Library })?;
         write_if_changed(&dir.join("Cargo.toml"), &manifest(&library, shaders, package, recipe, libm))?;
-        // rustc_codegen_nvvm, which does not optimise over crates, would keep a heap that nobody uses.
+        // rustc_codegen_nvvm does not optimise across crates, so it would keep the allocator even if nobody uses it.
         let heap = if shaders.codegen == Codegen::RustCuda { "" } else { HEAP };
-        // No name of the crate comes into scope: it may have any.
+        // The crate is imported as `_`, because its library may have any name.
         let library_source = format!("#![no_std]\nextern crate r#{user_library} as _;\n{heap}");
         write_if_changed(&dir.join("src/lib.rs"), &library_source)?;
         Ok(Self { dir, library })
@@ -89,10 +89,11 @@ pub(crate) fn dependency(recipe: &Recipe, package: &Package) -> String {
     )
 }
 
-/// How proc macros and build scripts are compiled: in little time.
+/// Settings for proc macros and build scripts, which are compiled as fast as possible.
 pub(crate) const BUILD_OVERRIDE: [&str; 3] = ["opt-level = 0", "codegen-units = 16", "strip = false"];
 
-/// The manifest's table for the profile. Packages that share a folder for builds share proc macros if it is the same.
+/// The manifest's table for the profile. Packages that share a build folder also share the compiled proc macros, if
+/// this table is the same.
 pub(crate) fn profile(shaders: &Shaders, recipe: &Recipe) -> String {
     let Checks { overflow, assertions } = recipe.checks;
     let mut text = format!(
@@ -121,7 +122,7 @@ pub(crate) fn profile(shaders: &Shaders, recipe: &Recipe) -> String {
     text
 }
 
-/// The end of a manifest: what a workspace of the user's would say in its root.
+/// The end of a manifest: what the root manifest of a workspace would contain.
 pub(crate) fn root(recipe: &Recipe, libm: Option<&PatchedLibm>) -> String {
     let patches = patch_tables(&recipe.patches, libm.map(|libm| libm.dir.as_path()));
     format!("[workspace]\nresolver = {}\n{patches}", toml_string(recipe.resolver))

@@ -1,4 +1,4 @@
-//! The words of LLVM IR.
+//! Splits LLVM IR into tokens.
 
 use super::unknown::Unknown;
 
@@ -27,7 +27,7 @@ pub(super) enum Token<'a> {
     End,
 }
 
-/// Tokens, each with its line from 0.
+/// The tokens, each with its line, counted from 0.
 pub(super) fn tokens(text: &str) -> Result<Vec<(Token<'_>, usize)>, (Unknown, usize)> {
     let mut lexer = Lexer { text, at: 0, line: 0 };
     let mut tokens = Vec::new();
@@ -122,7 +122,7 @@ impl<'a> Lexer<'a> {
         word
     }
 
-    /// The text between quotation marks, of which the first comes next.
+    /// Reads the text between quotation marks; the opening one comes next.
     fn quoted(&mut self) -> Result<&'a str, String> {
         let inner = &self.rest()[1..];
         let end = inner.find('"').ok_or("a text without its end")?;

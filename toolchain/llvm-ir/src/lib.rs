@@ -6,8 +6,8 @@
 //! | words to a model | `parse`, [`model`], [`opcode`] |
 //! | from an instruction to the source that it comes from | `origin` |
 //!
-//! [`module`] refuses what it does not know, for who translates the module. [`known`] leaves it out, for who looks for
-//! something in it.
+//! [`module`] refuses what it does not know; it is for translating the module. [`known`] leaves out what it does not
+//! know; it is for searching the module.
 
 mod lexer;
 pub mod model;

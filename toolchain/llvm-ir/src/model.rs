@@ -1,13 +1,13 @@
-//! LLVM IR as values: what rustc writes for device code after link-time optimisation.
+//! A model of LLVM IR, as far as rustc writes it for device code after link-time optimisation.
 //!
-//! Poison is `undef` here, which is one of the things that poison may become. Attributes and flags that a reader may
-//! leave out without changing what a program means are left out by the parser, unless both dialects know them.
+//! Poison is represented as `undef`, which is one of the values that poison may become. Attributes and flags that can
+//! be left out without changing the meaning of a program are left out by the parser, unless both dialects know them.
 
 use std::collections::BTreeMap;
 
 use crate::opcode::{Atomic, Binary, Cast, Order, Predicate};
 
-/// A type. What LLVM has beyond these is refused by the parser.
+/// A type. The parser refuses other types of LLVM.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Type {
     Void,
@@ -31,7 +31,7 @@ pub enum Type {
 impl Type {
     pub const BOOL: Self = Self::Int(1);
 
-    /// The bits of a number, or of a pointer; none for what is not a scalar.
+    /// The bits of a number or pointer; `None` for other types.
     pub fn bits(&self) -> Option<u32> {
         match self {
             Self::Int(bits) => Some(*bits),
@@ -46,12 +46,12 @@ impl Type {
         matches!(self, Self::Half | Self::Float | Self::Double)
     }
 
-    /// The type of each element of a vector; the type itself if it is none.
+    /// The type of the elements of a vector; other types are returned as they are.
     pub fn element(&self) -> &Self {
         if let Self::Vector(_, element) = self { element } else { self }
     }
 
-    /// A vector as long as this one of other elements; the element type if this is no vector.
+    /// A vector of `element` with as many elements as this one; `element` itself if this is no vector.
     pub fn with_element(&self, element: Self) -> Self {
         if let Self::Vector(count, _) = self { Self::Vector(*count, Box::new(element)) } else { element }
     }
@@ -73,7 +73,7 @@ pub enum Value {
     /// `c"..."` with its escapes.
     Bytes(String),
     Expression(Box<Expression>),
-    /// `!5`, as an argument.
+    /// Metadata such as `!5`, used as an argument.
     Metadata(String),
 }
 
@@ -145,7 +145,7 @@ pub enum Expression {
     Binary { op: Binary, a: Typed, b: Typed },
 }
 
-/// How memory is ordered around an atomic operation, and for whom.
+/// The memory ordering of an atomic operation, and the threads for which it holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ordering {
     pub order: Order,
@@ -153,7 +153,7 @@ pub struct Ordering {
     pub scope: String,
 }
 
-/// What a call or a function may do, and may be done with it, in LLVM 7's words.
+/// Attributes of a function or call, in LLVM 7's words.
 pub type Attributes = Vec<String>;
 
 /// An argument or a parameter.
@@ -161,7 +161,7 @@ pub type Attributes = Vec<String>;
 pub struct Argument {
     pub value: Typed,
     pub attributes: Attributes,
-    /// A copy is passed of what the pointer points to.
+    /// What the pointer points to is passed as a copy.
     pub by_value: Option<Type>,
     pub align: Option<u64>,
 }
@@ -218,7 +218,7 @@ pub enum Op {
     Unreachable,
 }
 
-/// Calls `$f` with each value of the instruction `$op`, by a reference or one that is `mut`.
+/// Calls `$f` with a reference, which may be `mut`, to each value of the instruction `$op`.
 macro_rules! each_value {
     ($op:expr, $f:expr $(, $mut:tt)?) => {
         match $op {
@@ -273,12 +273,12 @@ impl Op {
         each_value!(self, f);
     }
 
-    /// Calls `f` with each value that it uses, which it may change.
+    /// Calls `f` with each value that it uses, which `f` may change.
     pub fn values_mut(&mut self, f: &mut impl FnMut(&mut Value)) {
         each_value!(self, f, mut);
     }
 
-    /// The blocks that come next.
+    /// The blocks that may be executed next.
     pub fn successors(&self) -> Vec<&str> {
         match self {
             Self::Jump(to) => vec![to],
@@ -295,7 +295,7 @@ impl Op {
 pub struct Instruction {
     pub result: Option<String>,
     pub op: Op,
-    /// What hangs on it, as `("range", "!5")`.
+    /// The metadata attached to it, such as `("range", "!5")`.
     pub metadata: Vec<(String, String)>,
     /// The line of the source text, from 0.
     pub line: usize,
@@ -314,11 +314,11 @@ pub struct Function {
     pub linkage: Option<String>,
     pub kernel: bool,
     pub result: Type,
-    /// The value is the parameter's name, or undefined where there is none.
+    /// The value is the parameter's name, or undefined if it has none.
     pub parameters: Vec<Argument>,
     pub variadic: bool,
     pub attributes: Attributes,
-    /// The node that says where its source is, by number.
+    /// The number of the metadata node that describes its source.
     pub debug: Option<String>,
     pub blocks: Vec<Block>,
     pub line: usize,
@@ -351,7 +351,7 @@ pub struct Module {
     pub debug: BTreeMap<String, DebugNode>,
 }
 
-/// What debug information says in one place.
+/// A node of debug information.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DebugNode {
     /// `DILocation`

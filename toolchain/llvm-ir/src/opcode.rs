@@ -1,10 +1,10 @@
-//! The words of instructions: what is done, apart from what it is done to.
+//! The opcodes of instructions: what is done, without the operands.
 
 use std::fmt;
 
 use crate::unknown::Unknown;
 
-/// An enumeration of words. Where a variant has several, the first is the one that is printed.
+/// Declares an enumeration of words. If a variant has several words, the first one is printed.
 macro_rules! words {
     ($(#[$doc:meta])* $name:ident { $($variant:ident = $word:literal $(| $other:literal)*,)* }) => {
         $(#[$doc])*
@@ -14,7 +14,7 @@ macro_rules! words {
         }
 
         impl $name {
-            /// What a word stands for.
+            /// The variant that a word stands for.
             pub fn of(word: &str) -> Option<Self> {
                 match word {
                     $($word $(| $other)* => Some(Self::$variant),)*
@@ -69,7 +69,7 @@ impl Binary {
 }
 
 words! {
-    /// A conversion. `ptrtoaddr` differs from `ptrtoint` only in what it says of provenance, which LLVM 7 does not know.
+    /// A conversion. `ptrtoaddr` differs from `ptrtoint` only in the provenance, which LLVM 7 does not know.
     Cast {
         Trunc = "trunc",
         ZExt = "zext",
@@ -88,7 +88,7 @@ words! {
 }
 
 words! {
-    /// What `icmp` asks.
+    /// The predicate of `icmp`.
     IntPredicate {
         Eq = "eq",
         Ne = "ne",
@@ -104,7 +104,7 @@ words! {
 }
 
 words! {
-    /// What `fcmp` asks.
+    /// The predicate of `fcmp`.
     FloatPredicate {
         False = "false",
         Oeq = "oeq",
@@ -125,7 +125,7 @@ words! {
     }
 }
 
-/// What a comparison asks, which says whether it is of integers or of floats.
+/// The predicate of a comparison, of integers or of floats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Predicate {
     /// `icmp`
@@ -156,7 +156,7 @@ impl From<FloatPredicate> for Predicate {
 }
 
 words! {
-    /// What `atomicrmw` does, of what the GPU has.
+    /// The operations of `atomicrmw` that the GPU has.
     Atomic {
         Xchg = "xchg",
         Add = "add",
@@ -173,7 +173,7 @@ words! {
 }
 
 words! {
-    /// How memory is ordered around an atomic operation.
+    /// The memory ordering of an atomic operation.
     Order {
         Unordered = "unordered",
         Monotonic = "monotonic",
@@ -185,7 +185,7 @@ words! {
 }
 
 impl Order {
-    /// The order of a compare-exchange that has this one where it succeeds, and `failure` where it fails.
+    /// The ordering of a compare-exchange that has this ordering if it succeeds, and `failure` if it fails.
     pub fn or(self, failure: Self) -> Self {
         match (self, failure) {
             (Self::SeqCst, _) | (_, Self::SeqCst) => Self::SeqCst,
@@ -236,7 +236,8 @@ pub enum Opcode {
 }
 
 impl Opcode {
-    /// What the first word of an instruction stands for. Here, and nowhere else, an instruction is refused for its word.
+    /// The opcode that the first word of an instruction stands for. This is the only place where an instruction is
+    /// refused because of its word.
     pub fn of(word: &str) -> Result<Self, Unknown> {
         let binary = || Binary::of(word).map(Self::Binary);
         let cast = || Cast::of(word).map(Self::Cast);

@@ -1,7 +1,7 @@
-//! Where instructions come from.
+//! Finds the source that an instruction comes from.
 //!
-//! Line information says of each instruction which functions were inlined to make it, up to the one that it is in. From
-//! there on, what uses that function comes next, directly or by a table.
+//! Line information tells for each instruction which functions were inlined, up to the function that it is in. After
+//! that follow the functions that use this function, directly or through a table.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use crate::model::{DebugNode, Function, Instruction, Module};
 /// A function that an instruction comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame<'m> {
-    /// Its name, without what stands for its parameters.
+    /// Its name, without its generic parameters.
     pub function: &'m str,
     /// The file.
     pub file: PathBuf,
@@ -19,19 +19,19 @@ pub struct Frame<'m> {
     pub line: u32,
 }
 
-/// Who uses what in a module.
+/// The uses of symbols in a module.
 pub struct Origins<'m> {
     debug: &'m BTreeMap<String, DebugNode>,
-    /// What names each symbol, in the order of the text.
+    /// The uses of each symbol, in the order of the text.
     uses: HashMap<&'m str, Vec<Use<'m>>>,
 }
 
-/// What names a symbol.
+/// A use of a symbol.
 #[derive(Clone, Copy)]
 struct Use<'m> {
-    /// The function or variable that it is in.
+    /// The function or variable in which it is used.
     within: &'m str,
-    /// None in a variable.
+    /// The instruction; `None` in a variable.
     instruction: Option<&'m Instruction>,
 }
 
@@ -49,10 +49,10 @@ impl<'m> Origins<'m> {
         Self { debug: &module.debug, uses }
     }
 
-    /// The functions that an instruction of `function` comes from, the nearest first: those that were inlined, and then those
-    /// of what uses `function`.
+    /// The functions that an instruction of `function` comes from, the innermost first: those that were inlined, and
+    /// then those that use `function`.
     pub fn of(&self, function: &'m Function, instruction: &'m Instruction) -> Vec<Frame<'m>> {
-        // An instruction may use several of the symbols, and functions may use each other: each counts once.
+        // An instruction may use several of the symbols, and functions may use each other, so each is visited once.
         let mut instructions = vec![instruction];
         let mut symbols = vec![function.name.as_str()];
         let mut at = 0;
@@ -74,7 +74,7 @@ impl<'m> Origins<'m> {
         let mut frames = Vec::new();
         let attached = instruction.metadata.iter().find(|(name, _)| name == "dbg");
         let mut location = attached.and_then(|(_, node)| self.node(node));
-        // No chain is longer than there are nodes, unless it has no end.
+        // A chain that has more links than there are nodes has no end.
         for _ in 0..self.debug.len() {
             let Some(node) = location else { break };
             frames.extend(self.frame(node));

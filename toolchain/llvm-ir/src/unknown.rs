@@ -1,11 +1,11 @@
-//! What is not known, and where.
+//! Parts of LLVM IR that are not known.
 
-/// Something in LLVM IR that is not known, apart from where it is.
+/// Something in LLVM IR that is not known, without its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unknown {
     /// What it is.
     pub reason: String,
-    /// What to do, where there is more to say than to leave it out.
+    /// What to do, if there is a better way than to leave it out.
     pub hint: Option<&'static str>,
 }
 
@@ -20,7 +20,7 @@ impl Unknown {
     }
 }
 
-/// A module that was not read.
+/// Why a module was not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refused {
     /// What is not known in it.

@@ -1,4 +1,4 @@
-//! Which PTX the driver on this machine takes, and so which libNVVM.
+//! Chooses a libNVVM whose PTX the driver on this machine accepts.
 
 use std::ffi::c_int;
 use std::fmt;
@@ -24,9 +24,10 @@ impl PtxVersion {
         Some(Self { major: major.parse().ok()?, minor: minor.parse().ok()? })
     }
 
-    /// The newest that a driver for this version of CUDA takes.
+    /// The newest version that a driver for this version of CUDA accepts.
     pub fn of_cuda(major: u32, minor: u32) -> Self {
-        // PTX had one version less than CUDA in two places of the twelfth series, and kept step otherwise.
+        // CUDA 12.6 kept the PTX version of 12.5, so later releases of CUDA 12 are one behind. Otherwise each release
+        // of CUDA has a new version.
         let of = |major, minor| Self { major, minor };
         match (major, minor) {
             (12, 6) => of(8, 5),
@@ -38,7 +39,7 @@ impl PtxVersion {
         }
     }
 
-    /// The newest that the driver on this machine takes. None: there is no driver.
+    /// The newest version that the driver on this machine accepts. `None` if there is no driver.
     pub fn of_driver() -> Option<Self> {
         type GetVersion = unsafe extern "system" fn(*mut c_int) -> c_int;
         // SAFETY: this is NVIDIA's driver, whose initialisers have no precondition.
@@ -57,8 +58,8 @@ impl fmt::Display for PtxVersion {
     }
 }
 
-/// The libNVVM to use: of those whose PTX the driver takes, the newest. Without a driver, the one with the oldest PTX,
-/// which the most drivers take. It looks where [`libraries`](crate::libraries) does.
+/// The libNVVM to use: the newest whose PTX the driver accepts; if there is no driver, the one with the oldest PTX,
+/// which most drivers accept. It looks in the same places as [`libraries`](crate::libraries).
 pub fn choose(cache: Option<&Path>) -> Result<Library, NoLibrary> {
     let driver = PtxVersion::of_driver();
     let mut rejected = Vec::new();
@@ -106,13 +107,13 @@ pub struct Rejected {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Why {
-    /// It can't be loaded, or does not say what it is.
+    /// It can't be loaded, or does not tell its version.
     Failed(Failure),
-    /// The driver does not take the PTX that it writes.
+    /// The driver does not accept the PTX that it writes.
     TooNew {
         /// The version that it writes.
         writes: PtxVersion,
-        /// The newest that the driver takes.
+        /// The newest version that the driver accepts.
         driver: PtxVersion,
     },
 }

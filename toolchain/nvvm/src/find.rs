@@ -1,4 +1,4 @@
-//! Where libNVVM and libdevice are.
+//! Finds libNVVM and libdevice.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -6,8 +6,9 @@ use std::process::Command;
 /// The environment variable that names the libNVVM to use.
 pub const CHOICE: &str = "OPTIX_NVVM";
 
-/// Every libNVVM in the places where `cargo optix setup`, CUDA toolkits, drivers and Python wheels put it, the first one
-/// first. `OPTIX_NVVM` names one; then there is no other. `cache` is the folder that `cargo optix setup --nvvm` installs into.
+/// Every libNVVM in the places where `cargo optix setup`, CUDA toolkits, drivers and Python wheels put it, in the order
+/// of preference. If `OPTIX_NVVM` names one, only that. `cache` is the folder that `cargo optix setup --nvvm` installs
+/// into.
 pub fn libraries(cache: Option<&Path>) -> Vec<PathBuf> {
     if let Some(chosen) = std::env::var_os(CHOICE).filter(|chosen| !chosen.is_empty()) {
         return vec![chosen.into()];
@@ -16,7 +17,7 @@ pub fn libraries(cache: Option<&Path>) -> Vec<PathBuf> {
     for path in
         folders(cache).iter().flat_map(|dir| ["libnvvm.so", "libnvidia-nvvm.so"].map(|name| list(dir, name))).flatten()
     {
-        // Links lead to the file, whose path tells the version of the toolkit.
+        // Symbolic links are followed, because the real path tells the version of the toolkit.
         if let Ok(path) = path.canonicalize()
             && !files.contains(&path)
         {
@@ -36,18 +37,19 @@ pub fn libdevice(library: &Path) -> Option<PathBuf> {
         .find(|file| file.is_file())
 }
 
-/// The files `path` in what `cargo optix setup --nvvm` has installed into the folder `cache`, those of the newest CUDA last.
+/// The files `path` in the packages that `cargo optix setup --nvvm` has installed into the folder `cache`, those of the
+/// newest CUDA last.
 pub fn cached(cache: &Path, path: &str) -> Vec<PathBuf> {
     let roots = cached_packages(cache).into_iter().flat_map(|packages| roots(&packages));
     roots.map(|root| root.join(path)).filter(|path| path.exists()).collect()
 }
 
-/// The folders of packages in the cache, one a package and version.
+/// The folders of packages in the cache, one for each package and version.
 fn cached_packages(cache: &Path) -> Vec<PathBuf> {
     list(cache, "nvidia-nvvm")
 }
 
-/// What a folder of Python packages has in place of a CUDA toolkit: `nvidia/cu13`, and `nvidia/cuda_nvcc` before.
+/// The folders of Python packages that stand for a CUDA toolkit: `nvidia/cu13`, and `nvidia/cuda_nvcc` before CUDA 13.
 fn roots(packages: &Path) -> Vec<PathBuf> {
     list(&packages.join("nvidia"), "cu")
 }
@@ -63,14 +65,14 @@ fn folders(cache: Option<&Path>) -> Vec<PathBuf> {
     }
     folders.extend(list(Path::new("/usr/local"), "cuda").into_iter().map(|root| root.join("nvvm/lib64")));
     folders.push("/opt/cuda/nvvm/lib64".into());
-    // The driver has one too, under a name of its own.
+    // The driver brings its own libNVVM, under a different name.
     folders.extend(["/usr/lib/x86_64-linux-gnu", "/usr/lib64", "/usr/lib/aarch64-linux-gnu"].map(PathBuf::from));
     folders.extend(std::env::var_os("LD_LIBRARY_PATH").iter().flat_map(std::env::split_paths));
     python_packages().iter().for_each(|packages| wheels(&mut folders, packages));
     folders
 }
 
-/// Where the Python in use has its packages.
+/// The folders in which the Python in use has its packages.
 fn python_packages() -> Vec<PathBuf> {
     let script = "import site; print('\\n'.join(site.getsitepackages() + [site.getusersitepackages()]))";
     let output = Command::new("python3").args(["-c", script]).output();

@@ -1,7 +1,7 @@
 //! NVIDIA's libNVVM as a code generator, loaded at run time.
 //!
-//! libNVVM takes LLVM IR as text. For architectures before `sm_100` that is LLVM 7's, which is older than opaque pointers
-//! and much else that `rustc` writes, so the IR is read, lowered and printed again. No LLVM is needed.
+//! libNVVM takes LLVM IR as text. For architectures before `sm_100` it reads the IR of LLVM 7, which is older than
+//! opaque pointers and much else that `rustc` writes. So the IR is read, lowered and printed again. No LLVM is needed.
 //!
 //! | step | module |
 //! | --- | --- |
@@ -33,7 +33,7 @@ pub enum Dialect {
 }
 
 impl Dialect {
-    /// The dialect for an architecture such as `sm_75`. None: that is no architecture.
+    /// The dialect for an architecture such as `sm_75`. `None` if that is no architecture.
     ///
     /// ```
     /// use optix_nvvm::Dialect;

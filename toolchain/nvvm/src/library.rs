@@ -1,4 +1,4 @@
-//! libNVVM itself.
+//! A loaded libNVVM, and calls of its functions.
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::fmt;
@@ -98,7 +98,7 @@ impl Library {
         let program = OpenProgram::new(self)?;
         program.add("nvvmAddModuleToProgram", module.text.as_bytes(), c"shaders")?;
         if let Some(libdevice) = libdevice {
-            // Only what is called is taken.
+            // Only those functions of libdevice that are called become a part of the program.
             program.add("nvvmLazyAddModuleToProgram", libdevice, c"libdevice")?;
         }
         for (function, doing) in [("nvvmVerifyProgram", "verification"), ("nvvmCompileProgram", "compilation")] {
@@ -158,7 +158,7 @@ impl<'l> OpenProgram<'l> {
         self.library.check("adding a module", result)
     }
 
-    /// A text that the library has: its size, then itself.
+    /// Gets a text from the library: first its size, then the text.
     fn text(&self, size_of: &str, get: &str) -> Result<String, Failure> {
         let mut size = 0;
         // SAFETY: this is the type of the functions for sizes, and the pointer is to a live integer.

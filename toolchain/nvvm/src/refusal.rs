@@ -1,4 +1,4 @@
-//! What is not translated, and why.
+//! What can't be translated, and why.
 
 use std::fmt;
 
@@ -17,7 +17,7 @@ pub struct Refusal {
     pub hint: &'static str,
 }
 
-/// The way out that is always there.
+/// A remedy that always works.
 const OTHER_GENERATOR: &str = "compile this crate with rustc's own code generator (`--codegen rustc`)";
 
 impl fmt::Display for Refusal {
@@ -34,7 +34,7 @@ impl fmt::Display for Refusal {
 impl std::error::Error for Refusal {}
 
 impl Refusal {
-    /// What is not known in line `line` of `text`, in the function of that symbol.
+    /// The refusal of something in line `line` of `text`, in the function with that symbol.
     pub(super) fn of(unknown: Unknown, text: &str, line: usize, symbol: &str) -> Self {
         let instruction = text.lines().nth(line).unwrap_or_default().trim();
         let end = instruction.char_indices().nth(160).map_or(instruction.len(), |(at, _)| at);

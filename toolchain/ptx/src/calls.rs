@@ -1,4 +1,4 @@
-//! The calls in a function, with the arguments that are constants.
+//! The calls in a function, with the values of constant arguments.
 
 use crate::constants::Constants;
 use crate::statement::{Instruction, Statement, operands};
@@ -8,27 +8,27 @@ use crate::statement::{Instruction, Statement, operands};
 pub struct Call<'a> {
     /// The function's name, or the register with its address.
     pub function: &'a str,
-    /// Where the results go.
+    /// The operands that take the results.
     pub results: Vec<&'a str>,
-    /// As written.
+    /// The arguments as they are written.
     pub arguments: Vec<&'a str>,
-    /// The value of each argument that is a constant of 32 bits, whatever way control takes to the call.
+    /// The value of each argument that is a 32-bit constant on every path to the call.
     pub values: Vec<Option<u32>>,
 }
 
-/// What is written in a call.
+/// The parts of a call instruction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parts<'a> {
     /// The function's name, or the register with its address.
     pub function: &'a str,
-    /// Where the results go.
+    /// The operands that take the results.
     pub results: Vec<&'a str>,
     /// The arguments.
     pub arguments: Vec<&'a str>,
 }
 
 impl<'a> Parts<'a> {
-    /// The parts of `call (%r1), f, (%r2)`; none if it is another instruction.
+    /// The parts of `call (%r1), f, (%r2)`. `None` if it is another instruction.
     ///
     /// ```
     /// let call = optix_ptx::Instruction { guard: "", op: "call", operands: "(%r1), f, (%r2)" };

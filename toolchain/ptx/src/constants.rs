@@ -1,26 +1,27 @@
-//! What registers hold.
+//! The values that registers hold at a statement.
 //!
-//! Inline assembly takes its constants in registers, and LLVM uses one register for one value in several places, among
-//! them as the first value of a loop variable. So "set once" is not the question; what a register holds at a call is, and
-//! constant propagation over the control flow answers it, for the few registers that are set to several values.
+//! Inline assembly takes constants in registers, and LLVM uses one register for a value in several places, also as the
+//! first value of a loop variable. So it is not enough to look for registers that are set once. What a register holds
+//! at a call is found by constant propagation over the control flow, for the few registers that are set to several
+//! values.
 
 use std::collections::HashMap;
 
 use crate::flow::{Block, blocks, is_jump};
 use crate::statement::{Statement, operands};
 
-/// Values of registers at the beginnings of blocks that are looked at, at the most: beyond, they count as unknown.
+/// The most values (registers times blocks) that are followed. Beyond that, they count as unknown.
 const MOST_VALUES: usize = 1 << 22;
-/// Passes over a function until values no longer change, at the most: two more than loops nest is what code needs.
+/// The most passes over a function until values no longer change. Code needs two more than its loops are nested.
 const MOST_PASSES: usize = 64;
 
-/// What a register may hold at one place.
+/// What is known of a register's value at one place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Value {
-    /// It is not set on any way to here.
+    /// It is not set on any path to this place.
     Unset,
     Constant(u32),
-    /// One of several, or none that is known.
+    /// It has one of several values, or an unknown one.
     Unknown,
 }
 
@@ -50,13 +51,13 @@ struct Assignment {
     source: Source,
 }
 
-/// The registers of a function and what is assigned to them.
+/// The registers of a function, with what is assigned to them.
 pub(crate) struct Constants<'s, 'a> {
     statements: &'s [Statement<'a>],
     registers: HashMap<&'a str, usize>,
     /// In the order of the text.
     assignments: Vec<Assignment>,
-    /// What a register holds if it holds anything, by register.
+    /// For each register, its only value if it has just one, wherever it has a value.
     everywhere: Vec<Value>,
 }
 
@@ -79,7 +80,7 @@ impl<'s, 'a> Constants<'s, 'a> {
         register
     }
 
-    /// Adds what a statement assigns.
+    /// Adds the assignments of a statement.
     fn add(&mut self, at: usize, statement: &Statement<'a>) {
         let Statement::Instruction(instruction) = statement else { return };
         let operands = operands(instruction.operands);
@@ -94,7 +95,7 @@ impl<'s, 'a> Constants<'s, 'a> {
             },
             None => Source::Other,
         };
-        // `%p1|%p2`, `{%r1, %r2}` and `(%r1, %r2)` are several.
+        // `%p1|%p2`, `{%r1, %r2}` and `(%r1, %r2)` name several registers.
         let targets = targets.split(['|', ',', '(', ')', '{', '}']).map(str::trim);
         for target in targets.filter(|target| !target.is_empty()) {
             let register = self.register(target);
@@ -111,13 +112,13 @@ impl<'s, 'a> Constants<'s, 'a> {
     }
 }
 
-/// The values of the registers that the control flow decides about, at the beginning of each block.
+/// The values, at the beginning of each block, of registers whose value depends on the control flow.
 struct State<'c, 's, 'a> {
     constants: &'c Constants<'s, 'a>,
-    /// Its place among those that are followed, by register.
+    /// The index of each register among those that are followed.
     place: HashMap<usize, usize>,
     blocks: Vec<Block>,
-    /// Block by block, register by register.
+    /// The values: all registers of the first block, then those of the next.
     values: Vec<Value>,
 }
 
@@ -128,7 +129,7 @@ impl<'c, 's, 'a> State<'c, 's, 'a> {
         Self { constants, place: HashMap::new(), blocks, values: Vec::new() }
     }
 
-    /// Follows what these operands depend on. None if that is too much.
+    /// Follows the registers that these operands depend on. `None` if that is too much work.
     fn new<'o>(constants: &'c Constants<'s, 'a>, operands: impl Iterator<Item = &'o &'a str>) -> Option<Self>
     where
         'a: 'o,
@@ -147,7 +148,7 @@ impl<'c, 's, 'a> State<'c, 's, 'a> {
         if let Some(first) = reached.first_mut() {
             *first = true;
         }
-        // Values only ever go from unset to a constant to unknown, so this ends; but not always soon.
+        // A value only goes from unset to a constant to unknown, so this ends, but perhaps not soon.
         for _ in 0..MOST_PASSES {
             if !state.pass(&mut reached) {
                 return Some(state);
@@ -156,7 +157,7 @@ impl<'c, 's, 'a> State<'c, 's, 'a> {
         None
     }
 
-    /// Carries the values from each block to the next ones. Returns whether that changed anything.
+    /// Passes the values on from each block to its successors. Returns whether that changed any.
     fn pass(&mut self, reached: &mut [bool]) -> bool {
         let width = self.place.len();
         let mut changed = false;
@@ -232,8 +233,8 @@ impl<'c, 's, 'a> State<'c, 's, 'a> {
     }
 }
 
-/// Of the registers among the operands, and of those that are copied to them, the ones that hold a constant at some
-/// places only, each with a number.
+/// Numbers the registers that are followed: of the operands' registers, and those that are copied to them, the ones
+/// that hold a constant at some places only.
 fn followed<'o, 'a: 'o>(
     constants: &Constants<'_, 'a>,
     operands: impl Iterator<Item = &'o &'a str>,
@@ -259,7 +260,7 @@ fn followed<'o, 'a: 'o>(
     followed
 }
 
-/// A number as PTX writes it, in 32 bits.
+/// Reads a number as PTX writes it, as 32 bits.
 fn number(text: &str) -> Option<u32> {
     if let Some(bits) = text.strip_prefix("0f").or_else(|| text.strip_prefix("0x")) {
         return u32::from_str_radix(bits, 16).ok();

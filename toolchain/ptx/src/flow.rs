@@ -1,15 +1,15 @@
-//! Where control goes.
+//! The control flow of a function.
 
 use std::collections::HashMap;
 use std::ops::Range;
 
 use crate::statement::{Instruction, Statement, operands};
 
-/// Statements that are executed one after the other.
+/// A block: statements that are always executed one after the other.
 pub(crate) struct Block {
-    /// Which ones.
+    /// The range of the statements.
     pub statements: Range<usize>,
-    /// The blocks that may be next.
+    /// The blocks that may be executed next.
     pub next: Vec<usize>,
 }
 
@@ -67,7 +67,7 @@ pub(crate) fn blocks(statements: &[Statement<'_>]) -> Vec<Block> {
     ranges().enumerate().map(block).collect()
 }
 
-/// Whether control may go elsewhere than to the next statement.
+/// Whether control may continue at another statement than the next one.
 pub(crate) fn is_jump(instruction: &Instruction<'_>) -> bool {
     matches!(instruction.name(), "bra" | "brx" | "ret" | "exit")
 }

@@ -1,9 +1,10 @@
-//! Reads PTX: which functions and variables a module has, what each function's statements are, whom it calls, and which
-//! constants it passes.
+//! Reads PTX: the functions and variables of a module, the statements of each function, the functions that it calls,
+//! and the constants that it passes to them.
 //!
-//! The run time asks which programs a pipeline reaches and which rays they trace; the toolchain, whether they keep their
-//! contracts and what they cost. Text comes from compilers and, as inline assembly, from people, so this goes by PTX's
-//! grammar and not by a compiler's layout. Any text can be read: what is no PTX gives a module with little in it.
+//! The run time uses it to find which programs a pipeline reaches and which rays they trace; the toolchain, to check
+//! that programs keep their contracts, and to measure what they cost. The text comes from compilers and, as inline
+//! assembly, from people, so this follows the grammar of PTX and not the layout of one compiler. Any text can be read:
+//! one that is not PTX gives a module with little in it.
 //!
 //! ```
 //! let text = optix_ptx::plain(".version 7.8\n.target sm_75\n.visible .entry __raygen__a()\n{\n\
@@ -28,8 +29,8 @@ pub use module::{Function, Module, Variable, is_callable};
 pub use prototype::Prototype;
 pub use statement::{Instruction, Statement, operands};
 
-/// The text with a blank for each byte of a comment and of a `.file` line, whose path may hold anything: what is found in
-/// it is at the same place in the original.
+/// The text with a blank for each byte of a comment and of a `.file` line, whose path may contain anything. So whatever
+/// is found in it is at the same place in the original.
 ///
 /// ```
 /// assert_eq!(optix_ptx::plain("ret; // é\n/* a\nb */ exit;"), "ret;      \n    \n     exit;");
@@ -64,7 +65,7 @@ pub fn plain(text: &str) -> String {
     plain
 }
 
-/// Where a comment begins.
+/// The position at which a comment begins.
 fn comment_in(text: &str) -> Option<usize> {
     text.match_indices('/').map(|(at, _)| at).find(|at| text[at + 1..].starts_with(['/', '*']))
 }

@@ -1,8 +1,8 @@
 //! Atomics on local memory.
 //!
-//! PTX leaves it undefined what `atom` and `red` do there. Their address is a register, so where it comes from is followed: from
-//! the variables of local memory through copies, conversions and sums, through local memory itself, where
-//! `black_box` puts them among others, and through the parameters of functions.
+//! PTX leaves undefined what `atom` and `red` do with local memory. Their address is in a register, so its origin is
+//! followed: from the variables of local memory through copies, conversions and sums, through local memory itself
+//! (where `black_box`, for example, stores them), and through the parameters of functions.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -10,7 +10,7 @@ use crate::calls::Parts;
 use crate::module::{Function, Module};
 use crate::statement::{Instruction, Statement, operands};
 
-/// Passes until nothing changes, at the most: more than code that a compiler wrote needs.
+/// The most passes until nothing changes. Code that a compiler wrote needs fewer.
 const MOST_PASSES: usize = 64;
 
 /// The instructions `atom` and `red` whose address may be one of local memory, each with the function that it is in.
@@ -22,7 +22,7 @@ const MOST_PASSES: usize = 64;
 /// assert_eq!(optix_ptx::local_atomics(&module)[0].1.op, "atom.add.u32");
 /// ```
 pub fn local_atomics<'m, 'a>(module: &'m Module<'a>) -> Vec<(&'m Function<'a>, Instruction<'a>)> {
-    // The parameters that may be such addresses, by function.
+    // For each function, the parameters that may be such addresses.
     let mut parameters: HashMap<&'a str, BTreeSet<usize>> = HashMap::new();
     let functions: Vec<&Function<'a>> = module.defined().collect();
     let mut found = Vec::new();
@@ -47,7 +47,7 @@ pub fn local_atomics<'m, 'a>(module: &'m Module<'a>) -> Vec<(&'m Function<'a>, I
 /// What one function does with addresses of local memory.
 struct Flow<'a> {
     atomics: Vec<Instruction<'a>>,
-    /// To which parameter of which function it passes one.
+    /// The functions and parameters to which it passes one.
     passed: Vec<(&'a str, usize)>,
 }
 
@@ -59,7 +59,7 @@ impl<'a> Flow<'a> {
             return Self { atomics: Vec::new(), passed: Vec::new() };
         }
         let offsets = offsets(statements);
-        // Where in local memory addresses of local memory are. None: somewhere.
+        // The places in local memory that hold addresses of local memory. `None` stands for an unknown place.
         let mut kept: BTreeSet<Option<i64>> = BTreeSet::new();
         for _ in 0..MOST_PASSES {
             let before = (local.len(), kept.len());
@@ -99,7 +99,7 @@ impl<'a> Flow<'a> {
     }
 }
 
-/// How far behind the beginning of local memory each register points, of those that always point to one place.
+/// For each register that always points to one place in local memory, the offset of that place.
 fn offsets<'a>(statements: &[Statement<'a>]) -> HashMap<&'a str, i64> {
     let mut offsets: HashMap<&str, i64> = statements.iter().filter_map(variable).map(|name| (name, 0)).collect();
     let mut changing: BTreeSet<&str> = BTreeSet::new();
@@ -118,7 +118,7 @@ fn offsets<'a>(statements: &[Statement<'a>]) -> HashMap<&'a str, i64> {
         let target = parts[0];
         match offset {
             Some(offset) if !changing.contains(target) && *offsets.entry(target).or_insert(offset) == offset => {}
-            // Another register of this name, or one place of many.
+            // There is another register of this name, or this one has other values too.
             _ => {
                 changing.insert(target);
                 offsets.remove(target);
@@ -166,7 +166,7 @@ fn base(address: &str) -> &str {
     inside.split(['+', '-']).next().unwrap_or(inside).trim()
 }
 
-/// What an instruction makes of an address of local memory, if it is given one.
+/// The address that an instruction computes from an address of local memory, if it is given one.
 fn derived<'a>(
     instruction: &Instruction<'a>,
     local: &BTreeSet<&str>,

@@ -1,4 +1,4 @@
-//! What a module declares.
+//! Modules, and the functions and variables that they declare.
 
 use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap};
@@ -11,9 +11,9 @@ use crate::{Call, Prototype};
 /// A module.
 #[derive(Clone, Debug, Default)]
 pub struct Module<'a> {
-    /// `.version`, such as `7.8`; empty if it says none.
+    /// The version in `.version`, such as `7.8`; empty if there is none.
     pub version: &'a str,
-    /// `.target`, such as `sm_75`; empty if it says none.
+    /// The architecture in `.target`, such as `sm_75`; empty if there is none.
     pub target: &'a str,
     /// The variables outside of functions, in order.
     pub variables: Vec<Variable<'a>>,
@@ -34,17 +34,17 @@ pub struct Variable<'a> {
     pub space: &'a str,
     /// The type: `b8`.
     pub kind: &'a str,
-    /// Bytes, if it says so.
+    /// The alignment in bytes, if it is stated.
     pub align: Option<usize>,
-    /// How many of its type it has: that of `[16]`, or 1.
+    /// How many elements it has: 16 for `[16]`, 1 without brackets.
     pub count: Option<usize>,
-    /// Behind the `=`; empty if there is none.
+    /// The text of its value after the `=`; empty if it has none.
     pub value: &'a str,
 }
 
 impl Variable<'_> {
-    /// The whole numbers that it begins with; nothing if it has other values. One above `i64::MAX` may be written as the negative
-    /// number with the same bits.
+    /// The integers of its value; empty if it has other values. One above `i64::MAX` is given as the negative number
+    /// with the same bits.
     pub fn numbers(&self) -> Vec<u64> {
         let number = |text: &str| text.parse().ok().or_else(|| text.parse::<i64>().ok().map(i64::cast_unsigned));
         let value = self.value.trim_start_matches('{').trim_end_matches('}').trim();
@@ -53,22 +53,22 @@ impl Variable<'_> {
     }
 }
 
-/// An entry or another function.
+/// A function, which may be an entry.
 #[derive(Clone, Debug)]
 pub struct Function<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Whether OptiX leads to it: it is an `.entry`, or a callable by its name.
+    /// Whether OptiX itself may call it: because it is an `.entry`, or its name is that of a callable.
     pub is_entry: bool,
     /// Whether it is defined elsewhere.
     pub is_extern: bool,
     /// Whether it declares parameters.
     pub has_parameters: bool,
-    /// What it takes and gives, if that can be read.
+    /// The types of its parameters and results, if they can be read.
     pub prototype: Option<Prototype>,
-    /// Where it is in the text: from its first directive to its closing brace.
+    /// Its range in the text, from its first directive to its closing brace.
     pub range: Range<usize>,
-    /// What is between its braces.
+    /// The text between its braces.
     body: Option<&'a str>,
     statements: OnceCell<Vec<Statement<'a>>>,
     calls: OnceCell<Vec<Call<'a>>>,
@@ -80,7 +80,7 @@ pub fn is_callable(name: &str) -> bool {
 }
 
 impl<'a> Module<'a> {
-    /// The module in a [`plain`](crate::plain) text. Bodies are read when they are asked for.
+    /// Reads a module from a [`plain`](crate::plain) text. The bodies of functions are read when they are asked for.
     pub fn read(text: &'a str) -> Self {
         let mut module = Self::default();
         let mut at = 0;
@@ -108,7 +108,8 @@ impl<'a> Module<'a> {
         self.defined().filter(|function| function.is_entry)
     }
 
-    /// A function, and all that it calls or those call, each once. Empty if there is none of this name.
+    /// The function of this name and every function that it calls, directly or indirectly, each once. Empty if there is
+    /// none of this name.
     pub fn reached(&self, name: &str) -> Vec<&Function<'a>> {
         let mut reached: Vec<&Function<'a>> = self.get(name).into_iter().collect();
         let mut known: BTreeSet<&str> = reached.iter().map(|function| function.name).collect();
@@ -148,7 +149,7 @@ impl<'a> Module<'a> {
 }
 
 impl<'a> Function<'a> {
-    /// The function whose head goes on with `rest` behind `.entry` or `.func`: result, name, parameters.
+    /// Reads a function whose head has `rest` after `.entry` or `.func`: result, name and parameters.
     fn read(item: &Item<'a>, begin: usize, word: &str, rest: &'a str, is_extern: bool) -> Option<Self> {
         let prototype = Prototype::read(rest);
         let rest = match rest.trim_start().strip_prefix('(') {
@@ -199,16 +200,16 @@ impl<'a> Function<'a> {
 
 /// A declaration or definition, or a line such as `.version 7.8`.
 struct Item<'a> {
-    /// Up to its `;`, the end of its line, or the brace that opens a block.
+    /// The text up to its `;`, the end of its line, or the brace that opens a block.
     head: &'a str,
-    /// What is in the block.
+    /// The text inside of the block.
     block: Option<&'a str>,
-    /// Behind it.
+    /// The position after the item.
     end: usize,
 }
 
 impl<'a> Item<'a> {
-    /// The item that begins at `begin`, of one byte at least.
+    /// The item that begins at `begin`. It has at least one byte.
     fn at(text: &'a str, begin: usize) -> Self {
         let rest = &text[begin..];
         let is_line = |(word, _)| matches!(word, "version" | "target" | "address_size" | "file" | "loc");
@@ -226,7 +227,7 @@ impl<'a> Item<'a> {
                 return Self { head, block: None, end: begin + found + 1 };
             }
             let (inside, length) = block(&rest[found..]);
-            // The braces of a variable's value belong to its head.
+            // The braces around a variable's value are a part of its head.
             if !head.contains('=') {
                 return Self { head, block: Some(inside), end: begin + found + length };
             }
@@ -235,8 +236,8 @@ impl<'a> Item<'a> {
     }
 }
 
-/// What is inside of the block that the text begins with, and the length with its braces. One that nothing closes goes
-/// to the end.
+/// The inside of the block that the text begins with, and the block's length including its braces. A block that is
+/// never closed extends to the end.
 fn block(text: &str) -> (&str, usize) {
     let mut depth = 0_usize;
     for (at, brace) in text.bytes().enumerate() {
@@ -250,7 +251,7 @@ fn block(text: &str) -> (&str, usize) {
     (&text[1..], text.len())
 }
 
-/// The variable whose declaration goes on with `rest` behind its space.
+/// Reads a variable whose declaration has `rest` after the space's name.
 fn variable<'a>(space: &'a str, mut rest: &'a str, is_extern: bool) -> Option<Variable<'a>> {
     let (mut kind, mut align) = ("", None);
     while let Some((word, behind)) = directive(rest) {
@@ -280,7 +281,7 @@ fn directive(text: &str) -> Option<(&str, &str)> {
     (!word.is_empty()).then_some((word, rest))
 }
 
-/// The name that the text begins with, and what is behind.
+/// The name that the text begins with, and the rest.
 fn identifier(text: &str) -> (&str, &str) {
     let is_part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '$' | '%');
     text.split_at(text.find(|c| !is_part(c)).unwrap_or(text.len()))

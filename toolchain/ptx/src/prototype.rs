@@ -1,8 +1,8 @@
-//! What functions take and give.
+//! Prototypes: what functions take and return.
 
 use crate::Function;
 
-/// What a function takes and gives: the types of its parameters.
+/// What a function takes and returns: the types of its parameters and results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Prototype {
     results: Vec<String>,
@@ -10,7 +10,7 @@ pub struct Prototype {
 }
 
 impl Prototype {
-    /// From what stands behind `.func`, `.entry` or `.callprototype`: `(results) name (parameters)`.
+    /// Reads what follows `.func`, `.entry` or `.callprototype`: `(results) name (parameters)`.
     pub(crate) fn read(head: &str) -> Option<Self> {
         let head = head.trim_start();
         let (results, rest) = match head.strip_prefix('(') {
@@ -34,7 +34,7 @@ fn types(parameters: &str) -> Option<Vec<String>> {
 }
 
 impl Function<'_> {
-    /// The prototypes of the calls that it makes by address; `None` where one can't be read.
+    /// The prototypes of the calls that it makes through addresses. `None` if one of them can't be read.
     ///
     /// ```
     /// let text = ".func (.param .b32 r) f(.param .b64 a) { }\n.func g() {\n\

@@ -1,6 +1,6 @@
 //! The statements of a function.
 
-/// One statement. The blocks of inline assembly are dissolved.
+/// One statement. Blocks, which inline assembly has, are dissolved into their statements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Statement<'a> {
     /// `$L__BB0_1`, without its colon.
@@ -23,7 +23,7 @@ pub struct Instruction<'a> {
 }
 
 impl Instruction<'_> {
-    /// Up to the first dot: `mov`.
+    /// The operation's name up to the first dot: `mov`.
     pub fn name(&self) -> &str {
         self.op.split('.').next().unwrap_or_default()
     }
@@ -32,11 +32,11 @@ impl Instruction<'_> {
 /// The statements of a body.
 pub(crate) fn statements(text: &str) -> Vec<Statement<'_>> {
     let mut statements = Vec::new();
-    // Where the statement begins, if it has, and whether it may be a label.
+    // The position where the current statement began, if it has begun, and whether it may still be a label.
     let (mut begin, mut is_name, mut in_vector) = (None, true, false);
     for (at, c) in text.bytes().enumerate() {
         match (c, begin) {
-            // A brace within a statement is an operand's: `{%r1, %r2}`.
+            // A brace within a statement belongs to an operand, such as `{%r1, %r2}`.
             (b'{', Some(_)) => in_vector = true,
             (b'}', _) if in_vector => in_vector = false,
             (b'{' | b'}', _) => begin = None,
@@ -44,7 +44,7 @@ pub(crate) fn statements(text: &str) -> Vec<Statement<'_>> {
                 statements.push(Statement::Label(&text[from..at]));
                 begin = None;
             }
-            // It ends with its line.
+            // Such a directive ends at the end of its line.
             (b'\n', Some(from)) if text[from..].starts_with(".loc") => {
                 statements.push(Statement::Directive(text[from..at].trim_end()));
                 begin = None;
@@ -69,17 +69,17 @@ fn statement(text: &str) -> Statement<'_> {
         None => ("", text),
     };
     let text = text.trim();
-    // nvcc leaves no space in `call(%r1),_optix_x,()`.
+    // nvcc writes no space in `call(%r1),_optix_x,()`.
     let (op, operands) = text.split_at(text.find(|c: char| c.is_whitespace() || c == '(').unwrap_or(text.len()));
     Statement::Instruction(Instruction { guard, op, operands: operands.trim() })
 }
 
-/// Whether it may be in a name.
+/// Whether the byte may be a part of a name.
 fn is_part(c: u8) -> bool {
     c.is_ascii_alphanumeric() || matches!(c, b'_' | b'$' | b'%')
 }
 
-/// The operands, split at the commas that are in no parentheses, braces or brackets.
+/// Splits operands at the commas that are not inside of parentheses, braces or brackets.
 ///
 /// ```
 /// assert_eq!(optix_ptx::operands("{%r1, %r2}, [a+4]"), ["{%r1, %r2}", "[a+4]"]);

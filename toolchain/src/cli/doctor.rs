@@ -11,7 +11,7 @@ use optix_toolchain::{Candidate, DEFAULT_ARCH, DeviceCompiler, Error, MINIMUM, R
 use super::libraries::{self, Driver};
 use super::{Outcome, cargo, setup};
 
-/// The driver branch that knows OptiX 9.0.
+/// The oldest driver branch with OptiX 9.0.
 const DRIVER: &str = "driver 570 or newer: https://www.nvidia.com/drivers";
 
 pub(super) fn run() -> Outcome {
@@ -39,7 +39,7 @@ pub(super) fn run() -> Outcome {
     Ok(if can_compile { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// One line: what it is and what was found, or what is missing and what fixes it.
+/// Prints one line: the thing and what was found, or what is missing and what installs it.
 fn report(what: &str, found: Result<String, String>, fix: &str) {
     match found {
         Ok(found) => say!("  ok      {what}: {found}"),
@@ -48,7 +48,7 @@ fn report(what: &str, found: Result<String, String>, fix: &str) {
     }
 }
 
-/// Lists every candidate; returns whether one can compile shaders.
+/// Prints every candidate, and returns whether one of them can compile shaders.
 fn device_compilers() -> bool {
     let mut chosen = false;
     for Candidate { rustc, origin } in Candidate::all() {
@@ -77,7 +77,7 @@ fn device_compilers() -> bool {
     chosen
 }
 
-/// The command that makes a device compiler of a `rustc`.
+/// The command that installs what a `rustc` lacks as a device compiler.
 fn fix(rejected: &Rejected) -> String {
     match &rejected.why {
         Why::NoSources(path) if path.starts_with("/usr") => "install its distribution's package of sources".into(),
@@ -150,7 +150,7 @@ fn nvvm() {
     }
 }
 
-/// What is missing of `rustc_codegen_nvvm`, without what to install.
+/// What is missing of `rustc_codegen_nvvm`, without the advice on what to install.
 fn missing(error: &Error) -> String {
     if let Error::NoRustCuda(reason) = error { reason.to_string() } else { error.to_string() }
 }

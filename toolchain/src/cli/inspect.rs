@@ -89,14 +89,14 @@ fn read(path: &Path) -> Result<String, Failure> {
     std::fs::read_to_string(path).map_err(|e| Failure(format!("cannot read {}: {e}", path.display())))
 }
 
-/// The figures of a program, in the order of reports.
+/// The figures of a program, in the order in which reports show them.
 type Figures = Vec<(String, usize)>;
 
-/// A module with all that is known of its programs.
+/// A module with everything that was measured of its programs.
 struct Measured {
     name: String,
     programs: Vec<Program>,
-    /// By architecture.
+    /// What `ptxas` says, by architecture.
     usages: Vec<(String, Vec<Usage>)>,
 }
 
@@ -137,7 +137,8 @@ impl Measured {
     }
 }
 
-/// Prints a line of figures for each program, without the columns that hold nothing, then whom each program calls.
+/// Prints a line of figures for each program, without columns that are zero everywhere, and then which functions each
+/// program calls.
 fn table(measured: &Measured) {
     let rows: Vec<Figures> = measured.programs.iter().map(|program| measured.figures(program)).collect();
     let figure =
@@ -150,7 +151,7 @@ fn table(measured: &Measured) {
     }
     let order = |name: &&str| rows.iter().find_map(|row| row.iter().position(|(other, _)| other == name));
     names.sort_by_key(order);
-    // A name of two words is two lines of the head.
+    // A column's name of two words takes two lines of the head.
     let heads: Vec<(&str, &str)> = names.iter().map(|name| name.split_once(' ').unwrap_or(("", name))).collect();
     let line = |cells: Vec<String>, last: &str| {
         let cells = cells.iter().zip(&heads).map(|(cell, (a, b))| format!("{cell:>0$}", a.len().max(b.len()).max(6)));

@@ -1,6 +1,7 @@
-//! The command line of `cargo optix`: one module a subcommand.
+//! The command line of `cargo optix`, with a module for each subcommand.
 
-/// `println!` that ends the process quietly where nobody reads any more, as in `cargo optix doctor | head`.
+/// As `println!`, but it ends the process without a message when nobody reads the output any more, as in `cargo optix
+/// doctor | head`.
 macro_rules! say {
     ($($text:tt)*) => { $crate::cli::say(format_args!($($text)*)) };
 }
@@ -87,7 +88,8 @@ enum Action {
 
 /// Runs the command that the process was started with.
 pub(crate) fn main() -> ExitCode {
-    // Cargo runs `cargo-optix optix ..` for an installed `cargo optix ..`; the workspace's alias leaves that word out.
+    // Cargo runs `cargo-optix optix ..` for an installed `cargo optix ..`. The workspace's alias runs it without the
+    // word `optix`.
     let mut args: Vec<_> = std::env::args_os().collect();
     if args.get(1).is_some_and(|word| word == "optix") {
         args.remove(1);
@@ -109,7 +111,7 @@ pub(crate) fn main() -> ExitCode {
     })
 }
 
-/// Why a command did not do its work: one line, what is wrong and what to do.
+/// Why a command did not do its work, in one line: what is wrong and what to do.
 #[derive(Debug)]
 struct Failure(String);
 

@@ -34,9 +34,10 @@ pub(super) fn run(path: &Path) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// A package name that is an identifier with `-` for `_`, as the shader crate's name becomes part of code.
+/// Checks a package name. It has to be an identifier with `-` for `_`, because the shader crate's name becomes part of
+/// code.
 fn check_name(name: &str) -> Result<(), Failure> {
-    // Names of crates that the project uses itself, or that cargo or rustc give a meaning.
+    // Crates that the project itself uses have these names, or cargo or rustc give them a meaning.
     const TAKEN: [&str; 12] = [
         "test",
         "core",
@@ -63,8 +64,8 @@ fn check_name(name: &str) -> Result<(), Failure> {
     }
 }
 
-/// Fills in a template. `toolchain` is the folder that this command was compiled in: where the other crates lie beside
-/// it, the project uses those, otherwise the published ones of this command's version.
+/// Fills in a template. `toolchain` is the folder that this command was compiled in. If the toolkit's other crates are
+/// beside it, the project uses those, and otherwise the published ones of this command's version.
 fn fill(template: &str, name: &str, toolchain: &Path) -> String {
     let checkout = toolchain.parent().filter(|root| root.join("optix-host/Cargo.toml").is_file());
     let dependency = |folder: &str| match checkout {

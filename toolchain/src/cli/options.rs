@@ -63,7 +63,7 @@ pub(super) struct Options {
 pub(super) struct Crate {
     /// Its folder.
     pub path: PathBuf,
-    /// Those of the chosen features that it has.
+    /// The chosen features that this crate has.
     features: Vec<String>,
 }
 
@@ -97,10 +97,10 @@ impl Options {
         let area = workspace.target_dir.join("optix");
         if let Some(path) = &self.path {
             let Some(one) = crates.first_mut() else {
-                // The build says what is wrong with it.
+                // If this folder is no shader crate, the build will say why.
                 return Ok((vec![Crate { path: path.clone(), features: Vec::new() }], area));
             };
-            // As it was written.
+            // The path is shown as the user wrote it.
             one.path.clone_from(path);
         } else if crates.is_empty() {
             return Err(Failure(format!(
@@ -129,7 +129,7 @@ impl Options {
         offline.into_iter().chain(self.config.iter().map(|value| format!("--config={value}"))).collect()
     }
 
-    /// A crate, to be compiled so.
+    /// A crate with these options.
     pub fn shaders(&self, one: &Crate, arch: &str) -> Shaders {
         let Self { codegen, fmad, ftz, prec_div, prec_sqrt, libdevice, debug, checks, .. } = *self;
         let codegen = match codegen {

@@ -40,7 +40,7 @@ pub(super) fn run() -> Result<DeviceCompiler, Failure> {
     Err(Failure(format!("no device compiler could be installed ({}); {}", failed.join("; "), by_hand())))
 }
 
-/// What a person can do.
+/// What the user can do.
 fn by_hand() -> String {
     format!(
         "by hand: `rustup component add rust-src`, with rustup of https://rustup.rs and a way to static.rust-lang.org; or on Debian \
@@ -49,7 +49,7 @@ fn by_hand() -> String {
     )
 }
 
-/// A device compiler in one line.
+/// Describes a device compiler in one line.
 pub(super) fn describe(compiler: &DeviceCompiler) -> String {
     format!("{}, rustc {}, LLVM {}", compiler.rustc.display(), compiler.release, compiler.llvm)
 }
@@ -71,7 +71,7 @@ fn apt() -> Result<(), String> {
     if !apt_has_candidate() {
         return Err(format!("{} {MINIMUM} or newer is not in this system's package lists", PACKAGES[0]));
     }
-    // Never at the price of a package that is here: `rustc-web` conflicts with `rustc`.
+    // No package that is installed is removed for it: `rustc-web` conflicts with `rustc`.
     show(Command::new("apt-get").args(["-q", "install", "-y", "--no-install-recommends", "--no-remove"]).args(PACKAGES))
 }
 
@@ -95,7 +95,7 @@ fn rustup() -> Result<(), String> {
     show(Command::new("rustup").args(["component", "add", "rust-src"]))
 }
 
-/// Runs a command after saying so, its output passing through.
+/// Prints a command and runs it; its output is shown.
 pub(super) fn show(command: &mut Command) -> Result<(), String> {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
     let line = words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ");

@@ -4,18 +4,19 @@ use std::process::{Command, ExitCode};
 
 use super::{Failure, Outcome, cargo, libraries, setup};
 
-/// What tests look at to learn that they may use the GPU.
+/// The environment variable that tells tests that they may use the GPU.
 const GPU_SWITCH: &str = "OPTIX_TEST_GPU";
 
 pub(super) fn run(args: &[String]) -> Outcome {
-    // Without a device compiler most tests still run; what failed is said, and the tests decide.
+    // Without a device compiler most tests still run. The error is printed, and each test decides what it does.
     if let Err(failure) = setup::run() {
         eprintln!("warning: {failure}");
     }
     let gpu = libraries::open(libraries::OPTIX).is_ok();
     let mut command = Command::new(cargo());
     command.args(["test", "--workspace"]).args(args);
-    // `cargo run`, which the workspace's alias for this command is, describes the package of this command.
+    // The workspace's alias uses `cargo run`, which sets variables that describe the package of this command. Tests
+    // must not see them.
     for (name, _) in std::env::vars_os() {
         let of_this_package = |name: &str| name.starts_with("CARGO_PKG_") || name.starts_with("CARGO_MANIFEST_");
         if name.to_str().is_some_and(of_this_package) {
@@ -30,7 +31,7 @@ pub(super) fn run(args: &[String]) -> Outcome {
     if !gpu {
         say!("GPU tests: not run, no {}", libraries::OPTIX);
     }
-    // No code: ended by a signal.
+    // There is no exit code if a signal ended the process.
     let code = status.code().map_or(1, |code| u8::try_from(code).unwrap_or(1));
     Ok(ExitCode::from(code))
 }

@@ -1,4 +1,4 @@
-//! NVIDIA's wheels: libNVVM and ptxas, by `cargo optix setup --nvvm`.
+//! Installs libNVVM and ptxas from NVIDIA's Python wheels, for `cargo optix setup --nvvm`.
 
 use std::process::Command;
 
@@ -7,10 +7,11 @@ use optix_toolchain::nvvm;
 use super::libraries::Driver;
 use super::{Failure, setup};
 
-/// The CUDA whose wheels are taken where there is no driver: the oldest that has a wheel of libNVVM alone.
+/// The version of CUDA whose wheels are installed if there is no driver. It is the oldest with a wheel that has only
+/// libNVVM.
 const WITHOUT_DRIVER: (i32, i32) = (13, 0);
 
-/// Installs them into a folder of our own; nothing of the user's Python is touched.
+/// Installs them into a folder of the toolkit; the user's Python installation stays as it is.
 pub(super) fn install() -> Result<(), Failure> {
     let cuda = Driver::query().map_or(WITHOUT_DRIVER, |driver| driver.cuda);
     let cache =
@@ -32,12 +33,12 @@ pub(super) fn install() -> Result<(), Failure> {
     Ok(())
 }
 
-/// The newest packages that the driver of that CUDA takes.
+/// The newest packages that a driver for this version of CUDA accepts.
 fn packages((major, minor): (i32, i32)) -> Option<Vec<String>> {
     let below = format!("<{major}.{}", minor + 1);
     match major {
         ..12 => None,
-        // In one package then.
+        // Older versions have both in one package.
         12 => Some(vec![format!("nvidia-cuda-nvcc-cu12{below}")]),
         _ => Some(["nvidia-nvvm", "nvidia-cuda-nvcc"].map(|name| format!("{name}{below}")).to_vec()),
     }

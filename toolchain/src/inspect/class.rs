@@ -1,6 +1,6 @@
 //! Kinds of instructions.
 
-/// What an instruction occupies in a GPU, roughly.
+/// Which part of a GPU an instruction mainly uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Class {
@@ -10,24 +10,24 @@ pub enum Class {
     Float,
     /// Arithmetic and comparison of `f64`: 32 to 64 times slower than `f32` on most GPUs.
     Double,
-    /// `sin`, `ex2`, `lg2`, `rcp`, `rsqrt` and what begins with one of them: division and square root. The exactly
-    /// rounded forms of those are 8 instructions and more.
+    /// `sin`, `ex2`, `lg2`, `rcp`, `rsqrt`, and also division and square root, which start from one of them. The
+    /// exactly rounded forms of those take 8 instructions and more.
     Special,
-    /// Between types.
+    /// Conversions between types.
     Convert,
-    /// Between registers, and selection by a predicate. Most of them vanish.
+    /// Moves between registers, and selection by a predicate. Most of them vanish in machine code.
     Move,
     /// Constant memory: launch parameters.
     Constant,
     /// Global memory.
     Global,
-    /// Local memory: a thread's own.
+    /// Local memory, which belongs to one thread.
     Local,
     /// Shared memory.
     Shared,
     /// Arguments and results of functions.
     Param,
-    /// Memory of a space that is found out at run time.
+    /// Memory whose space is only known at run time.
     Generic,
     /// Textures and surfaces.
     Texture,
@@ -38,7 +38,7 @@ pub enum Class {
 }
 
 impl Class {
-    /// Every class, in the order of reports.
+    /// Every class, in the order in which reports show them.
     pub const ALL: [Self; 15] = [
         Self::Integer,
         Self::Float,

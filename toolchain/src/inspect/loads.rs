@@ -14,12 +14,12 @@ pub struct Loads {
 }
 
 impl Loads {
-    /// From constant memory, where nothing but launch parameters lies.
+    /// Loads from constant memory, which holds only launch parameters.
     pub(super) fn of_parameters(function: &Function<'_>) -> Self {
         Self::of(function, |load| load.op.starts_with("ld.const."))
     }
 
-    /// Through the record's pointer, and what is computed from it.
+    /// Loads through the record's pointer, and through addresses computed from it.
     pub(super) fn of_record(function: &Function<'_>) -> Self {
         let pointers = record_pointers(function);
         Self::of(function, |load| {
@@ -47,8 +47,8 @@ fn instructions<'b, 'a>(function: &'b Function<'a>) -> impl Iterator<Item = &'b 
     })
 }
 
-/// The registers that may hold an address in the record: the result of the call, and what moves, additions and
-/// conversions make of it.
+/// The registers that may hold an address in the record: the result of the call that gives it, and what moves,
+/// additions and conversions make of that.
 fn record_pointers<'a>(function: &Function<'a>) -> HashSet<&'a str> {
     let mut pointers = HashSet::new();
     loop {

@@ -10,8 +10,8 @@
 //! assert_eq!((program.parameters.count, program.parameters.bytes), (1, 4));
 //! ```
 //!
-//! PTX is not what a GPU executes. Counts compare two builds of one program; [`ptxas`](ptxas::Ptxas) tells registers,
-//! and OptiX's own compiler has the last word.
+//! A GPU does not execute PTX. The counts are for comparing two builds of a program; [`ptxas`](ptxas::Ptxas) tells
+//! registers, and what counts in the end is OptiX's own compiler.
 
 mod class;
 mod loads;
@@ -55,7 +55,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// How many instructions it has, calls included.
+    /// How many instructions it has, including calls.
     pub fn instructions(&self) -> usize {
         self.classes.values().sum()
     }

@@ -1,12 +1,13 @@
-//! Which programs of two builds are the same one.
+//! Finds which programs of two builds are the same program.
 
 use super::Program;
 
-/// Pairs the programs of two builds by name. What has no partner comes alone, the second build's last.
+/// Pairs the programs of two builds by name. A program without a partner comes alone, those of the second build last.
 ///
-/// A Rust entry's name holds pipeline, path and a hash, `__closesthit__Tracer_lambert_Radiance_7f36cb79`, and changes with
-/// any of them; a person writes `__closesthit__lambert`. So names that differ pair where one's words are among the
-/// other's, and no other program of that kind would do.
+/// The name of a Rust entry consists of pipeline, path and a hash, as in
+/// `__closesthit__Tracer_lambert_Radiance_7f36cb79`, and changes with any of them; a person writes
+/// `__closesthit__lambert`. So programs with different names are also paired if the words of one name are among those
+/// of the other, and this holds for no other program of that kind.
 pub fn pairs<'a>(ours: &'a [Program], theirs: &'a [Program]) -> Vec<(Option<&'a Program>, Option<&'a Program>)> {
     let exact = |one: &Program, among: &'a [Program]| among.iter().find(|other| other.name == one.name);
     let left = |of: &'a [Program], others| of.iter().filter(|one| exact(one, others).is_none()).collect::<Vec<_>>();
@@ -30,7 +31,8 @@ fn only<T>(mut items: impl Iterator<Item = T>) -> Option<T> {
     items.next().is_none().then_some(first)
 }
 
-/// Whether both names begin alike, `__miss__`, and one's further words are among the other's.
+/// Whether both names begin with the same prefix, such as `__miss__`, and the further words of one are among those of
+/// the other.
 fn is_alike(a: &str, b: &str) -> bool {
     let words = |name: &'_ str| -> Option<(String, Vec<String>)> {
         let (kind, rest) = name.strip_prefix("__")?.split_once("__")?;

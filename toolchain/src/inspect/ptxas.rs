@@ -1,13 +1,13 @@
 //! Registers and spills, from NVIDIA's assembler.
 //!
 //! `ptxas` refuses OptiX's device functions: they are declared nowhere, and several of their results have no calling
-//! convention. So each call is replaced by what it leaves of the program: a store of each argument to shared memory, and
-//! a load of each result from there, volatile, so that none of them is dropped or merged. (Their addresses are
-//! constants and occupy no register.)
+//! convention. So each call is replaced by instructions that need the same registers: a store of each argument to
+//! shared memory, and a load of each result from there. They are volatile, so that none of them is dropped or merged.
+//! (Their addresses are constants and need no register.)
 //!
-//! The registers are therefore those of the program's own code. OptiX's are others: it splits a program at each trace
-//! and call, keeps what lives across them on the stack, and adds its own traversal. The figures compare two builds of
-//! a program; the compile log of OptiX tells what it used.
+//! The numbers of registers are therefore those of the program's own code. What OptiX needs is different: it splits a
+//! program at each trace and call, keeps what lives across them on the stack, and adds its own traversal. The figures
+//! are for comparing two builds of a program; the compile log of OptiX tells what it used.
 
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -81,7 +81,7 @@ impl Ptxas {
     pub fn usage(&self, ptx: &str, arch: &str, area: &Path) -> Result<Vec<Usage>, Error> {
         let folder = area.join("inspect");
         util::create_dir(&folder)?;
-        // Several may run at a time.
+        // Several processes may run at a time, so the name of the file is unique.
         let name = util::hash([ptx, arch, &std::process::id().to_string()]);
         let (input, cubin) = (folder.join(format!("{name}.ptx")), folder.join(format!("{name}.cubin")));
         std::fs::write(&input, stand_in(ptx)).doing(|| format!("cannot write {}", input.display()))?;
@@ -109,7 +109,7 @@ fn wheels() -> Vec<PathBuf> {
     text.lines().map(PathBuf::from).collect()
 }
 
-/// The messages of `-v`.
+/// Reads the messages of `-v`.
 fn usages(text: &str) -> Vec<Usage> {
     let mut usages: Vec<Usage> = Vec::new();
     for line in text.lines() {
@@ -130,7 +130,8 @@ fn usages(text: &str) -> Vec<Usage> {
     usages
 }
 
-/// The shared memory that stands for OptiX, and its size: a trace has the most arguments, 15 and 32 payload words.
+/// The shared memory that stands for OptiX, and its size. A trace call has the most arguments: 15, and 32 payload
+/// words.
 const STAND_IN: &str = "optix_inspect_stand_in";
 const STAND_IN_BYTES: usize = 512;
 
@@ -197,7 +198,7 @@ fn stand_in_of(call: &Instruction<'_>, registers: &Registers<'_>) -> Option<Stri
     Some(lines.join(";\n"))
 }
 
-/// The widths of the registers that are declared so far; names are per block, and the last declaration holds.
+/// The widths of the registers that have been declared. Names are valid within a block, so the last declaration holds.
 #[derive(Default)]
 struct Registers<'a>(HashMap<&'a str, &'a str>);
 

@@ -8,10 +8,11 @@ use optix_ptx::{Module, Statement};
 
 use crate::ptx::demangled;
 
-/// The instructions of each program that `wanted` says yes to, each run of them below the source line it was made from.
-/// `None`: the PTX has no line information.
+/// The instructions of each program that `wanted` accepts, each run of them below the source line that it was made
+/// from. `None` if the PTX has no line information.
 ///
-/// A file that can't be read is named by path and line alone; relative paths, such as those of `core`, are not looked for.
+/// For a file that can't be read, only path and line are shown. Relative paths, such as those of `core`, are not
+/// searched for.
 pub fn with_source(ptx: &str, wanted: impl Fn(&str) -> bool) -> Option<String> {
     let files = files(ptx);
     if files.is_empty() {
@@ -31,7 +32,7 @@ pub fn with_source(ptx: &str, wanted: impl Fn(&str) -> bool) -> Option<String> {
         for statement in function.statements() {
             match statement {
                 Statement::Directive(directive) => next = location(directive).or(next),
-                // Labels of debug information, to which nothing jumps.
+                // These labels belong to debug information, and nothing jumps to them.
                 Statement::Label(label) if label.starts_with("$L__tmp") || label.starts_with("$L__func") => {}
                 Statement::Label(label) => {
                     let _ = writeln!(text, "    {label}:");
@@ -54,7 +55,7 @@ pub fn with_source(ptx: &str, wanted: impl Fn(&str) -> bool) -> Option<String> {
     Some(text)
 }
 
-/// The files that `.file 1 "path"` numbers.
+/// The paths of the files, by the numbers that `.file 1 "path"` gives them.
 fn files(ptx: &str) -> HashMap<usize, PathBuf> {
     let file = |line: &str| {
         let (number, path) = line.trim().strip_prefix(".file")?.trim().split_once(char::is_whitespace)?;
@@ -89,7 +90,7 @@ impl Sources {
     }
 }
 
-/// The last parts of a path, from the folder that holds `src` on.
+/// The last parts of a path, beginning with the folder that holds `src`.
 fn short(path: &Path) -> String {
     let parts: Vec<_> = path.iter().map(|part| part.to_string_lossy()).collect();
     let from =

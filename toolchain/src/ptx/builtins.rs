@@ -1,11 +1,11 @@
-//! Functions that the compiler calls and nothing on the device defines.
+//! Definitions of functions that the compiler calls and nothing on the device defines.
 //!
-//! In PTX, because `rustc` would keep one that is written in Rust whether or not something calls it.
+//! They are written in PTX, because `rustc` would keep a definition in Rust whether or not something calls it.
 
-/// Names and definitions. `memcmp` compares slices; other functions of its kind are instructions.
+/// Names and definitions. `memcmp` compares slices; for the other functions of its kind LLVM emits instructions.
 const DEFINITIONS: [(&str, &str); 1] = [("memcmp", include_str!("../../templates/memcmp.ptx"))];
 
-/// The text with definitions in place of their declarations.
+/// The text with these definitions in place of the declarations.
 pub(crate) fn defined(mut text: String) -> String {
     for (name, definition) in DEFINITIONS {
         if let Some(declaration) = declaration(&text, name) {
@@ -15,7 +15,7 @@ pub(crate) fn defined(mut text: String) -> String {
     text
 }
 
-/// Where `.extern .func (..) name (..) ;` is.
+/// The range of `.extern .func (..) name (..) ;` in the text.
 fn declaration(text: &str, name: &str) -> Option<std::ops::Range<usize>> {
     const EXTERN: &str = ".extern .func";
     text.match_indices(EXTERN).find_map(|(at, _)| {

@@ -1,7 +1,7 @@
 //! Instructions that OptiX forbids or gives another meaning.
 //!
-//! A GPU thread that runs a program may move to another warp or multiprocessor at any moment (guide 6.2). So nothing may count on
-//! the threads beside it. No function of the device crate does; inline assembly may.
+//! A thread that runs a program may move to another warp or multiprocessor at any moment (guide 6.2), so a program
+//! can't rely on the threads beside it. No function of the device crate does, but inline assembly may.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ use optix_ptx::{Function, Instruction, Module, Parts, Statement, operands};
 pub struct Forbidden {
     /// The function that it is in.
     pub function: String,
-    /// The instruction's name, or the register's or variable's.
+    /// The name of the instruction, register or variable.
     pub what: String,
     /// The rule.
     pub why: Why,
@@ -28,23 +28,24 @@ pub enum Why {
     SharedMemory,
     /// A barrier, or an instruction of a whole warp or block.
     Together,
-    /// A special register that there is not in OptiX.
+    /// A special register that does not exist in OptiX.
     NoRegister,
-    /// A special register that OptiX replaces.
+    /// A special register to which OptiX gives another value.
     ReplacedRegister,
-    /// What other threads of the warp do, or which thread or multiprocessor this is.
+    /// An instruction or register that tells what other threads of the warp do, or which thread or multiprocessor this
+    /// is.
     Neighbours,
     /// A memory fence.
     Fence,
 }
 
 impl Why {
-    /// Whether the module can't be used; otherwise it can be meant so.
+    /// Whether the module can't be used. If not, the author may have meant it.
     pub const fn is_error(self) -> bool {
         matches!(self, Self::LocalAtomic | Self::SharedMemory | Self::Together | Self::NoRegister)
     }
 
-    /// The rule, and the way out.
+    /// The rule, and what to do instead.
     const fn text(self) -> &'static str {
         match self {
             Self::LocalAtomic => {
@@ -121,8 +122,8 @@ pub fn forbidden(module: &Module<'_>) -> Vec<Forbidden> {
     found
 }
 
-/// Whether a statement reads a detail of an exception. The device crate has a fence behind it, for the driver's compiler and
-/// not for memory.
+/// Whether a statement reads a detail of an exception. The device crate puts a fence behind it, which is for the
+/// driver's compiler and not for memory.
 fn reads_exception_detail(statement: &Statement<'_>) -> bool {
     let call = match statement {
         Statement::Instruction(instruction) => Parts::of(instruction),
@@ -163,7 +164,7 @@ fn of_operation(instruction: &Instruction<'_>) -> Option<Why> {
 
 /// The special registers that an instruction reads.
 fn registers<'a>(function: &Function<'a>, instruction: &Instruction<'a>) -> Vec<(&'a str, Why)> {
-    // Names in the text are as LLVM and people choose them; one that is declared is no special register.
+    // LLVM and people choose names freely, so a name that is declared in the text is no special register.
     let is_declared = |register: &str| {
         function.statements().iter().any(|statement| match statement {
             Statement::Directive(directive) if directive.starts_with(".reg") => {

@@ -1,9 +1,9 @@
-//! Flushing to zero.
+//! Flushing subnormal numbers to zero.
 //!
-//! LLVM chooses `.ftz` by an attribute of each function, which `rustc` has no option for; so it is added to the
+//! LLVM chooses `.ftz` by an attribute of each function, and `rustc` has no option for that. So `.ftz` is added to the
 //! instructions. Inline assembly stays as its author wrote it.
 
-/// The text with `.ftz` at every `f32` instruction that takes it.
+/// The text with `.ftz` added to every `f32` instruction that can have it.
 pub(crate) fn flushed(text: &str) -> String {
     let mut flushed = String::with_capacity(text.len() + text.len() / 32);
     let mut in_asm = false;
@@ -29,7 +29,7 @@ pub(crate) fn flushed(text: &str) -> String {
     flushed
 }
 
-/// Where `.ftz` belongs in an instruction's name, if it takes one.
+/// The position of `.ftz` in an instruction's name, if the instruction can have it.
 fn place(op: &str) -> Option<usize> {
     const TAKE_IT: [&str; 18] = [
         "abs", "add", "cos", "div", "ex2", "fma", "lg2", "max", "min", "mul", "neg", "rcp", "rsqrt", "set", "setp",
@@ -40,7 +40,7 @@ fn place(op: &str) -> Option<usize> {
     let (first, _) = types.next()?;
     let is = |kind: &str, at: usize| op[at + 1..].split('.').next() == Some(kind);
     let takes = match name {
-        // From an integer or to an `f64` nothing can be subnormal.
+        // A conversion from an integer or to an `f64` meets no subnormal `f32`.
         "cvt" => types.next().is_some_and(|(from, _)| is("f32", from) || is("f64", from) && is("f32", first)),
         _ => TAKE_IT.contains(&name) && is("f32", first),
     };

@@ -1,4 +1,4 @@
-//! Calls of callables, and throwing: that only programs do so that may (guide 13).
+//! Checks that callables are called, and exceptions thrown, only by programs that may (guide 13).
 
 use optix_ptx::Function;
 
@@ -19,7 +19,7 @@ pub(super) fn check(
     for call in function.calls() {
         let allowed = match call.function {
             DIRECT => program.kind != Kind::Exception,
-            // The same programs: both suspend the caller.
+            // The same programs may call continuation callables as may trace, because both suspend the caller.
             CONTINUATION => program.kind.may_trace(),
             name if name.starts_with(THROW) => program.kind != Kind::Exception,
             _ => continue,

@@ -1,4 +1,4 @@
-//! Entries: that each program has one, of the right name.
+//! Checks that each program has an entry with the right name.
 
 use optix_ptx::Module;
 

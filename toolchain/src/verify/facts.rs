@@ -1,4 +1,4 @@
-//! What a pipeline's declaration says of its PTX: the host's numbers.
+//! What a pipeline's declaration promises about its PTX, in numbers that the host computed.
 
 use crate::error::Error;
 use crate::json::Json;
@@ -14,7 +14,7 @@ pub struct Pipeline {
     pub rays: Vec<Ray>,
     /// What its programs may throw, if anything.
     pub throws: Option<String>,
-    /// The variable in the PTX with the layouts of `crossings`.
+    /// The PTX's variable that holds the layouts of `crossings`.
     pub layouts: String,
     /// The types that cross between host and device.
     pub crossings: Vec<Crossing>,
@@ -31,9 +31,9 @@ pub struct Crossing {
     pub name: String,
     /// How many bytes or words it has.
     pub size: usize,
-    /// Which of the two.
+    /// Whether these are bytes or words.
     pub unit: String,
-    /// A number of its layout.
+    /// A number that stands for its layout.
     pub layout: u64,
 }
 
@@ -72,11 +72,11 @@ pub struct Ray {
     pub payload: String,
     /// `OptixPayloadSemantics` bits per payload word.
     pub semantics: Vec<u32>,
-    /// Words that who traces it keeps in local memory, where the payload travels by pointer.
+    /// Words that the tracing program keeps in local memory, if the payload travels by pointer.
     pub memory_words: usize,
 }
 
-/// A device program in the place that it has in a pipeline.
+/// A device program, with its place in a pipeline.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
     /// Its kind.
@@ -141,12 +141,13 @@ impl Kind {
         }
     }
 
-    /// What OptiX wants the entry's name to begin with.
+    /// The prefix that OptiX asks for in the entry's name.
     pub fn prefix(self) -> String {
         format!("__{}__", self.word())
     }
 
-    /// The `OptixPayloadSemantics` bits that let it read and write a payload word. None: it has no payload.
+    /// The `OptixPayloadSemantics` bits that allow it to read and write a payload word. `None` if this kind has no
+    /// payload.
     pub const fn semantics(self) -> Option<(u32, u32)> {
         match self {
             Self::RayGen | Self::DirectCallable | Self::ContinuationCallable | Self::Exception => None,

@@ -1,4 +1,4 @@
-//! What verification has found.
+//! The findings of a verification.
 
 use std::fmt;
 
@@ -20,9 +20,9 @@ pub struct Finding {
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// A contract is broken or unproven.
+    /// A contract is broken, or it can't be proven that it is kept.
     Error,
-    /// It works, at a price.
+    /// It works, but it costs time.
     Warning,
 }
 
@@ -78,7 +78,7 @@ impl Rule {
         }
     }
 
-    /// What to do about a finding.
+    /// What to do about a finding of this rule.
     pub const fn help(self) -> &'static str {
         match self {
             Self::Module => "avoid what needs it, or define it in the shader crate",
@@ -142,7 +142,7 @@ impl fmt::Display for Finding {
 }
 
 impl Program {
-    /// How findings name it.
+    /// The name of the program in findings.
     pub(super) fn item(&self, pipeline: &Pipeline) -> String {
         let kind = match self.kind {
             Kind::RayGen => "ray-generation program",

@@ -1,4 +1,4 @@
-//! Instructions that OptiX forbids or gives another meaning, in every program that reaches them.
+//! Finds instructions that OptiX forbids or gives another meaning, for every program that reaches them.
 
 use optix_ptx::Function;
 

@@ -1,4 +1,4 @@
-//! What costs without being wrong: local memory, and functions that are called instead of inlined.
+//! Finds what is not wrong but costs time: local memory, and functions that are called instead of inlined.
 
 use optix_ptx::{Call, Function, Module};
 
@@ -8,7 +8,7 @@ use super::trace;
 use crate::libm::OUT_OF_LINE;
 use crate::ptx::{demangled, is_callable_call};
 
-/// Whether a call goes through a pointer that is not that of a callable.
+/// Whether a call goes through a pointer that is not a callable's.
 fn is_through_a_pointer(function: &Function<'_>, call: &Call<'_>) -> bool {
     let is_callable = |other: &Call<'_>| is_callable_call(other) && other.results.contains(&call.function);
     call.function.starts_with('%') && !function.calls().iter().any(is_callable)

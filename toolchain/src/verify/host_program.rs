@@ -1,10 +1,11 @@
-//! The program that prints the host's side of a shader crate's pipelines.
+//! Builds and runs the program that prints what the host computes from a shader crate's pipelines.
 //!
-//! The PTX is to be compared with what a host program computes from the same declarations, so such a program is built
-//! and run: it depends on the shader crate by path. A pipeline need not be public. `pipeline!` offers its description
-//! under a symbol which ends like the names of the pipeline's entries, where `--cfg optix_facts` asks for it.
+//! The PTX is compared with what a host program computes from the same declarations. So such a program is generated,
+//! which depends on the shader crate by path. A pipeline need not be public for that: if `--cfg optix_facts` is set,
+//! `pipeline!` exports its description under a symbol that ends like the names of the pipeline's entries.
 //!
-//! It is compiled by the device compiler, for the host, in the folder of the device build: proc macros are there.
+//! The device compiler compiles it for the host, in the folder of the device build, where the proc macros are compiled
+//! already.
 
 use std::collections::BTreeSet;
 
@@ -22,7 +23,7 @@ use crate::wrapper::{PROFILE, dependency, profile, root};
 const MAIN: &str = include_str!("../../templates/facts/main.rs");
 const DEVICE_CRATE: &str = "optix-device-rs";
 
-/// The pipelines that these entries belong to. Entries that no `pipeline!` made are passed over.
+/// The pipelines that these entries belong to. Entries that no `pipeline!` made are ignored.
 pub(super) fn pipelines(session: &Session<'_>, entries: &[String]) -> Result<Vec<Pipeline>, Error> {
     let places: BTreeSet<&str> = entries.iter().filter_map(|entry| place(entry)).collect();
     let device_crate = session.graph.packages.iter().find(|package| package.name == DEVICE_CRATE);
@@ -63,7 +64,8 @@ fn manifest(session: &Session<'_>, device_crate: &Package) -> String {
          {dependency}\n\
          {profile}\n\
          {root}",
-        // Programs of one name would overwrite each other in the folder that builds share.
+        // The program's name is unique, because builds share a folder, where programs with one name would overwrite
+        // each other.
         session.own.file_name().unwrap_or_default().display(),
         dependency = dependency(&session.recipe, &session.package),
         of_device_crate = taken_from(device_crate),
@@ -77,7 +79,7 @@ fn source(session: &Session<'_>, places: &BTreeSet<&str>) -> String {
     let list = |text: &dyn Fn(&str) -> String| places.iter().map(|place| text(place)).collect::<String>();
     let declarations = list(&|place| format!("        safe fn __optix_facts_{place}() -> &'static D;\n"));
     let calls = list(&|place| format!("            __optix_facts_{place}(),\n"));
-    // The crate is named so that it is linked.
+    // The crate is mentioned so that it gets linked.
     format!(
         "{MAIN}mod facts {{\n    extern crate r#{library} as _;\n    use ::optix_device_rs::host::PipelineDescription as D;\n\n    \
          unsafe extern \"Rust\" {{\n{declarations}    }}\n\n    pub fn all() -> Vec<&'static D> {{\n        \

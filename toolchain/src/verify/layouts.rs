@@ -1,4 +1,4 @@
-//! Layouts: that host and device lay out what crosses between them in the same way.
+//! Checks that host and device lay out what crosses between them in the same way.
 
 use optix_ptx::Module;
 

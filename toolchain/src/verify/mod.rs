@@ -20,7 +20,8 @@
 //! | no barriers, shared memory, fences, atomics on local memory, nor registers and votes that mean something else in OptiX | [`Rule::Instruction`] |
 //! | nothing is missing that OptiX would have to find elsewhere | [`Rule::Module`] |
 //!
-//! Arguments of calls are followed to the constants they come from; one that is not a constant is a finding too.
+//! Arguments of calls are followed to the constants that they come from. An argument that is not a constant is a
+//! finding too.
 
 mod callables;
 mod entries;
@@ -56,7 +57,7 @@ pub struct Verified {
     pub built: Built,
     /// The crate's pipelines, as the host sees them.
     pub pipelines: Vec<Pipeline>,
-    /// What is wrong; empty if all is proven.
+    /// What is wrong. Empty if everything is proven.
     pub findings: Vec<Finding>,
 }
 
@@ -91,7 +92,7 @@ pub fn check(text: &str, pipelines: &[Pipeline], allowed: &[String]) -> Vec<Find
     let mut findings = Vec::new();
     let text = optix_ptx::plain(text);
     let module = Module::read(&text);
-    // Calls through pointers and forbidden instructions are told by program, below.
+    // These are reported for each program, below.
     let forbidden = ptx::forbidden::forbidden(&module);
     if let Err(problem) = ptx::check(&module)
         && !matches!(problem, ptx::Problem::Pointers(_) | ptx::Problem::Forbidden(_))
@@ -124,7 +125,7 @@ pub fn check(text: &str, pipelines: &[Pipeline], allowed: &[String]) -> Vec<Find
         findings.push(Finding::error(Rule::Instruction, "the module", one.to_string()));
     }
     functions::check(&module, pipelines, allowed, &mut findings);
-    // A function that several programs call, or one program several times, would say the same again.
+    // If several programs call a function, or one calls it several times, the same finding would come again.
     let mut seen = Vec::new();
     findings.retain(|finding| {
         let new = !seen.contains(finding);
@@ -136,7 +137,7 @@ pub fn check(text: &str, pipelines: &[Pipeline], allowed: &[String]) -> Vec<Find
     findings
 }
 
-/// The item with a function that it reaches, if that is not its own entry.
+/// The name of the item, and of the function that it reaches, if that is not its own entry.
 fn place(function: &Function<'_>, item: &str) -> String {
     if function.is_entry {
         item.to_string()

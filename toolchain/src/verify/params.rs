@@ -1,14 +1,14 @@
-//! Launch parameters: the variable, and that they are read field by field.
+//! Checks the variable of the launch parameters, and that they are read field by field.
 
 use optix_ptx::{Function, Instruction, Module, Statement, Variable, operands};
 
 use super::facts::{Field, Params, Pipeline};
 use super::finding::{Finding, Rule};
 use super::place;
-/// The largest field that is loaded directly; beyond, the number of instructions is no longer worth it.
+/// The largest field that is loaded directly. For a larger one, the number of instructions is no longer worth it.
 const LARGEST_DIRECT: usize = 128;
 
-/// The variable is there once, as large and as aligned as the struct.
+/// Checks that the variable is there once, with the struct's size and alignment.
 pub(super) fn check(module: &Module<'_>, pipeline: &Pipeline, findings: &mut Vec<Finding>) {
     let params = &pipeline.params;
     let mut error = |message: String| {
@@ -34,7 +34,7 @@ pub(super) fn check(module: &Module<'_>, pipeline: &Pipeline, findings: &mut Vec
     }
 }
 
-/// What a function does with the variable is loading fields, directly.
+/// Checks that a function uses the variable only to load fields, directly.
 pub(super) fn check_loads(
     function: &Function<'_>,
     pipeline: &Pipeline,
@@ -94,7 +94,7 @@ fn check_use(instruction: &Instruction<'_>, params: &Params, item: &str) -> Opti
             field.offset + field.size
         ));
     }
-    // The field's own alignment does not allow more than bytes.
+    // A field with this alignment can only be loaded byte by byte.
     (field.bound && width < field.size.min(4)).then(|| {
         let message = format!("loads the bound field {name} in pieces of {width} byte; a field of 4 bytes is one load");
         Finding::warning(Rule::ParamsLoad, item, message)

@@ -1,4 +1,4 @@
-//! Payloads: the type that a program announces, and the words it gets and sets.
+//! Checks the payload type that a program announces, and the words that it gets and sets.
 
 use optix_ptx::Function;
 
@@ -10,7 +10,8 @@ const SET_TYPES: &str = "_optix_set_payload_types";
 const GET: &str = "_optix_get_payload";
 const SET: &str = "_optix_set_payload";
 
-/// A program with a payload announces its ray type's, once and first; others announce none.
+/// Checks that a program with a payload announces its ray type's, once and before anything else, and that other
+/// programs announce none.
 pub(super) fn check_type(
     entry: &Function<'_>,
     program: &Program,
@@ -54,7 +55,7 @@ fn types(mask: u32, pipeline: &Pipeline) -> String {
     if names.is_empty() { format!("no ray type of `{}`", pipeline.name) } else { names.join(" and ") }
 }
 
-/// Payload words are constants, and the program may get or set them.
+/// Checks that the numbers of payload words are constants, and that the program may get or set those words.
 pub(super) fn check_words(
     function: &Function<'_>,
     program: &Program,

@@ -1,4 +1,4 @@
-//! Queries of hits: that only programs for triangles ask about triangles (guide 13.9).
+//! Checks that only programs for triangles ask about triangles (guide 13.9).
 
 use optix_ptx::Function;
 
@@ -6,7 +6,7 @@ use super::facts::Program;
 use super::finding::{Finding, Rule};
 use super::place;
 
-/// What is undefined for the current hit if that is no triangle.
+/// Device functions that are undefined if the current hit is not on a triangle.
 const OF_TRIANGLES: [&str; 2] = ["_optix_get_triangle_barycentrics", "_optix_get_triangle_vertex_data_current_hit"];
 
 pub(super) fn check(function: &Function<'_>, program: &Program, item: &str, findings: &mut Vec<Finding>) {

@@ -1,4 +1,4 @@
-//! Trace calls: that everything in them follows from the ray type.
+//! Checks that everything in a trace call follows from its ray type.
 
 use optix_ptx::{Call, Function};
 
@@ -7,8 +7,8 @@ use super::finding::{Finding, Rule};
 use super::place;
 const TRACE: &str = "_optix_trace_typed_32";
 
-/// Positions of `_optix_trace_typed_32`'s arguments; before the offset are type, handle, nine numbers of the ray, mask
-/// and flags, and behind the word count the words themselves.
+/// Positions of the arguments of `_optix_trace_typed_32`. Before the offset are type, handle, nine numbers of the ray,
+/// mask and flags; the words themselves come after the word count.
 const TYPE: usize = 0;
 const SBT_OFFSET: usize = 13;
 const SBT_STRIDE: usize = 14;
@@ -38,7 +38,8 @@ pub(super) fn check(
     }
 }
 
-/// Bytes of payloads that the function keeps in its local memory, for the rays that it traces with a pointer to theirs.
+/// The bytes of payloads that the function keeps in its local memory, for those of its rays whose payload travels by
+/// pointer.
 pub(super) fn payload_memory(function: &Function<'_>, pipeline: &Pipeline) -> usize {
     let calls = function.calls().iter().filter(|call| call.function == TRACE);
     let rays = calls.filter_map(|call| pipeline.rays.get(call.values.get(TYPE).copied()??.trailing_zeros() as usize));

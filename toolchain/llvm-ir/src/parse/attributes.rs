@@ -1,7 +1,7 @@
 //! Attributes of functions, calls, parameters and results.
 //!
-//! Most only tell the optimiser more than it must know. Kept is what LLVM 7 knows and what changes the code that is
-//! made; `captures(none)` and `memory(..)` are said in LLVM 7's words.
+//! Most attributes only help the optimiser. Those that LLVM 7 knows and that change the generated code are kept;
+//! `captures(none)` and `memory(..)` are translated to LLVM 7's words.
 
 use super::{Parsed, Parser};
 use crate::lexer::Token;
@@ -18,7 +18,7 @@ const OF_PARAMETERS: [&str; 6] = ["noalias", "noundef", "readonly", "readnone", 
 /// Attributes that change how a value is passed, in a way that nothing here translates.
 const REFUSED: [&str; 7] = ["byref", "inalloca", "inreg", "nest", "preallocated", "swifterror", "swiftself"];
 
-/// What is known of parameters and results.
+/// The attributes of parameters and results that are known.
 #[derive(Default)]
 pub(super) struct OfValue {
     pub words: Attributes,
@@ -27,7 +27,7 @@ pub(super) struct OfValue {
 }
 
 impl<'a> Parser<'_, 'a> {
-    /// Reads `attributes #5 = { .. }` wherever it stands: functions that have it come first in the text.
+    /// Reads `attributes #5 = { .. }` from the whole text first, because functions that refer to them come before them.
     pub(super) fn read_groups(&mut self) -> Parsed<()> {
         for at in 0..self.tokens.len() {
             if let (Token::Word("attributes"), Some((Token::Group(name), _))) =
@@ -46,7 +46,7 @@ impl<'a> Parser<'_, 'a> {
         Ok(())
     }
 
-    /// Attributes behind a function's parameters, a call's arguments, or in a group.
+    /// Attributes after a function's parameters or a call's arguments, or in a group.
     pub(super) fn function_attributes(&mut self) -> Parsed<Attributes> {
         let mut words = Attributes::new();
         loop {
@@ -71,12 +71,12 @@ impl<'a> Parser<'_, 'a> {
                 Token::Word("optnone" | "naked" | "returns_twice" | "presplitcoroutine") => {
                     return self.unexpected("an attribute that device code may have");
                 }
-                // What follows the attributes of a definition.
+                // This follows the attributes of a definition.
                 Token::Word("align" | "section" | "comdat" | "gc" | "prefix" | "prologue" | "personality" | "to") => {
                     break;
                 }
                 Token::Word(word) => {
-                    // A word on a line of its own begins the next instruction.
+                    // A word on a new line begins the next instruction.
                     if self.next_line() != self.line() {
                         break;
                     }
@@ -98,11 +98,11 @@ impl<'a> Parser<'_, 'a> {
         Ok(words)
     }
 
-    /// Attributes before a result's type or behind a parameter's.
+    /// Attributes before a result's type or after a parameter's.
     pub(super) fn value_attributes(&mut self) -> Parsed<OfValue> {
         let mut of = OfValue::default();
         while let Token::Word(word) = self.peek() {
-            // What can follow: a type, or a constant.
+            // A type or a constant may follow.
             let is_value = matches!(word, "null" | "undef" | "poison" | "zeroinitializer" | "splat" | "true" | "false");
             let is_expression = matches!(
                 word,
@@ -151,7 +151,7 @@ impl<'a> Parser<'_, 'a> {
     }
 }
 
-/// `memory(argmem: read)` in LLVM 7's words; nothing is said where it has none.
+/// `memory(argmem: read)` in LLVM 7's words; nothing if it has none for it.
 fn memory(effects: &[Token<'_>]) -> &'static [&'static str] {
     let parts: Vec<&[Token<'_>]> = effects.split(|token| *token == Token::Punctuation(',')).collect();
     match parts[..] {

@@ -1,4 +1,4 @@
-//! Instructions.
+//! Parses instructions.
 
 use super::module::is_nothing;
 use super::{Parsed, Parser};
@@ -9,10 +9,10 @@ use crate::unknown::Unknown;
 
 /// Flags of integer arithmetic that LLVM 7 knows.
 const INTEGER_FLAGS: [&str; 3] = ["nuw", "nsw", "exact"];
-/// Flags that LLVM 7 does not know; what they promise need not be used.
+/// Flags that LLVM 7 does not know. They only promise something, so they can be left out.
 const NEWER_FLAGS: [&str; 3] = ["disjoint", "nneg", "samesign"];
 const FLOAT_FLAGS: [&str; 8] = ["nnan", "ninf", "nsz", "arcp", "contract", "afn", "reassoc", "fast"];
-/// What is kept of the metadata on instructions; the rest promises what need not be used.
+/// The metadata on instructions that is kept. The rest only promises something, so it can be left out.
 const METADATA: [&str; 6] = ["range", "noalias", "alias.scope", "invariant.load", "noundef", "dbg"];
 
 impl<'a> Parser<'_, 'a> {
@@ -79,7 +79,7 @@ impl<'a> Parser<'_, 'a> {
                 Ok(Op::Binary { op, flags, a, b })
             }
             Opcode::Cast(op) => {
-                // No flag of a conversion is LLVM 7's.
+                // LLVM 7 has no flags on conversions.
                 self.flags(&["nuw", "nsw", "nnan", "ninf", "nsz", "arcp", "contract", "afn", "reassoc", "fast"]);
                 let value = self.typed()?;
                 self.expect_word("to")?;
@@ -175,7 +175,8 @@ impl<'a> Parser<'_, 'a> {
                 let expected = self.typed_after_comma()?;
                 let new = self.typed_after_comma()?;
                 let mut ordering = self.ordering()?;
-                // What failure needs; success gives at least as much, and the machine has one for both.
+                // The ordering for failure is not needed: that for success is at least as strong, and the machine has
+                // one for both.
                 if let Token::Word(word) = self.peek()
                     && let Some(failure) = Order::of(word)
                 {
@@ -211,7 +212,7 @@ impl<'a> Parser<'_, 'a> {
         Ok(Op::Compare { predicate, flags, a, b })
     }
 
-    /// The second operand, of the first one's type.
+    /// The second operand, which has the type of the first.
     fn second(&mut self, ty: &Type) -> Parsed<Value> {
         self.expect(',')?;
         self.value(ty)
@@ -222,7 +223,7 @@ impl<'a> Parser<'_, 'a> {
         self.typed()
     }
 
-    /// Whether a comma comes that is not followed by metadata.
+    /// Whether the next token is a comma that is not followed by metadata.
     fn has_operand(&self) -> bool {
         self.peek() == Token::Punctuation(',') && !matches!(self.peek_at(1), Token::Metadata(_))
     }
@@ -329,7 +330,7 @@ impl<'a> Parser<'_, 'a> {
         self.value_attributes()?;
         self.address_space()?;
         let result = self.ty()?;
-        // The type of a function with variable arguments is written out.
+        // For a function with variable arguments, its whole type is written.
         if self.peek() == Token::Punctuation('(') {
             return Err(Unknown::new("a call with variable arguments").hint("pass a slice"));
         }
@@ -341,7 +342,7 @@ impl<'a> Parser<'_, 'a> {
         let arguments = self.list(')', |parser| {
             let ty = parser.ty()?;
             let of = parser.value_attributes()?;
-            // `metadata !5` may also be a node that is written out.
+            // After `metadata` comes `!5`, or a node that is written out.
             let value = if ty == Type::Metadata && parser.peek() == Token::Metadata("") {
                 parser.at += 1;
                 parser.expect('{')?;
@@ -375,7 +376,7 @@ impl<'a> Parser<'_, 'a> {
         Ok(Callee::Asm { text, constraints: self.text()?, side_effect })
     }
 
-    /// `"align"(ptr %1, i64 16) ]`: what an assumption promises.
+    /// The promise of an assumption: `"align"(ptr %1, i64 16) ]`.
     fn bundles(&mut self) -> Parsed<()> {
         loop {
             match self.next() {

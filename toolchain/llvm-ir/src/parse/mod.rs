@@ -1,7 +1,7 @@
-//! The text of LLVM IR to a [`Module`].
+//! Parses the text of LLVM IR to a [`Module`].
 //!
-//! It reads what LLVM 17 and later print. A word that it does not know is refused or, in [`known`], left out with the
-//! instruction or definition that it is in.
+//! It reads what LLVM 17 and later versions print. A word that it does not know is refused or, in [`known`], left out
+//! with the instruction or definition that contains it.
 
 mod attributes;
 mod instructions;
@@ -25,8 +25,8 @@ pub fn module(text: &str) -> Result<Module, Refused> {
     parser.module().map_err(|unknown| Refused { unknown, line: parser.line(), function: parser.function })
 }
 
-/// Reads what it knows of a module. Definitions and instructions that it does not know are left out; nothing is read of
-/// a text that is not even made of LLVM's words.
+/// Reads the known parts of a module. Unknown definitions and instructions are left out. A text that does not even
+/// consist of LLVM's tokens gives an empty module.
 pub fn known(text: &str) -> Module {
     let Ok(tokens) = tokens(text) else { return Module::default() };
     Parser::new(&tokens, true).module().unwrap_or_default()
@@ -36,7 +36,7 @@ struct Parser<'t, 'a> {
     tokens: &'t [(Token<'a>, usize)],
     at: usize,
     groups: HashMap<&'a str, Attributes>,
-    /// Whether what it does not know is left out.
+    /// Whether unknown things are left out instead of refused.
     lenient: bool,
     /// The symbol of the function that is being read.
     function: String,
@@ -44,7 +44,7 @@ struct Parser<'t, 'a> {
     depth: u32,
 }
 
-/// Deeper nesting is no compiler's.
+/// No compiler nests deeper than this.
 const DEEPEST: u32 = 64;
 
 impl<'t, 'a> Parser<'t, 'a> {
@@ -52,8 +52,8 @@ impl<'t, 'a> Parser<'t, 'a> {
         Self { tokens, at: 0, groups: HashMap::new(), lenient, function: String::new(), depth: 0 }
     }
 
-    /// What was read, or nothing if it begins in the line `line` with something that is not known and is left out: then
-    /// the next line comes next.
+    /// What was read. `None` if it contains something unknown and is left out; then reading continues after the line
+    /// `line`, in which it begins.
     fn or_skipped<T>(&mut self, read: Parsed<T>, line: usize) -> Parsed<Option<T>> {
         match read {
             Err(_) if self.lenient => {
@@ -119,7 +119,7 @@ impl<'t, 'a> Parser<'t, 'a> {
         if self.eat_word(word) { Ok(()) } else { self.unexpected(&format!("`{word}`")) }
     }
 
-    /// The word that comes next, if it is one of these.
+    /// Takes the next word, if it is one of these.
     fn one_of(&mut self, words: &[&str]) -> Option<&'a str> {
         match self.peek() {
             Token::Word(word) if words.contains(&word) => {
@@ -130,7 +130,7 @@ impl<'t, 'a> Parser<'t, 'a> {
         }
     }
 
-    /// What the word that comes next stands for.
+    /// Takes the next word and returns what it stands for.
     fn one_by<T>(&mut self, of: impl Fn(&str) -> Option<T>, wanted: &str) -> Parsed<T> {
         let known = match self.peek() {
             Token::Word(word) => of(word),
@@ -198,7 +198,7 @@ impl<'t, 'a> Parser<'t, 'a> {
         Ok(number)
     }
 
-    /// Items with commas between them, up to the closing mark, of which the opening one was read.
+    /// Reads items with commas between them, up to the closing mark. The opening mark has been read already.
     fn list<T>(&mut self, close: char, mut item: impl FnMut(&mut Self) -> Parsed<T>) -> Parsed<Vec<T>> {
         let mut items = Vec::new();
         if self.eat(close) {
@@ -213,7 +213,7 @@ impl<'t, 'a> Parser<'t, 'a> {
         }
     }
 
-    /// Reads something that may hold another of its kind.
+    /// Reads something that may contain another of its kind, and counts the nesting.
     fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
         if self.depth == DEEPEST {
             return Err(Unknown::new("nesting deeper than any compiler's"));
@@ -224,7 +224,7 @@ impl<'t, 'a> Parser<'t, 'a> {
         result
     }
 
-    /// Skips what is between parentheses, of which the first comes next; returns its words.
+    /// Skips a text in parentheses, the first of which comes next; returns its words.
     fn parentheses(&mut self) -> Parsed<Vec<Token<'a>>> {
         self.expect('(')?;
         let (mut depth, mut inside) = (1, Vec::new());

@@ -1,4 +1,4 @@
-//! What stands at the left margin: variables, functions, metadata.
+//! Parses definitions: variables, functions and metadata, all of which start at the left margin.
 
 use super::{Parsed, Parser};
 use crate::lexer::Token;
@@ -19,7 +19,7 @@ const LINKAGES: [&str; 11] = [
     "extern_weak",
 ];
 
-/// Words before a symbol that change nothing about its code.
+/// Words before a symbol that do not change its code.
 const VISIBILITY: [&str; 8] = [
     "dso_local",
     "dso_preemptable",
@@ -31,7 +31,7 @@ const VISIBILITY: [&str; 8] = [
     "externally_initialized",
 ];
 
-/// Calling conventions: on the device there is one, apart from that of kernels.
+/// Calling conventions. On the device there is only one, apart from that of kernels.
 const CONVENTIONS: [&str; 5] = ["ccc", "fastcc", "coldcc", "ptx_device", "tailcc"];
 
 impl Parser<'_, '_> {
@@ -108,7 +108,7 @@ impl Parser<'_, '_> {
         Ok(())
     }
 
-    /// `#5 = { .. }`, which was read before.
+    /// Skips `#5 = { .. }`, which has been read before.
     fn skip_group(&mut self) -> Parsed<()> {
         loop {
             match self.next() {
@@ -143,7 +143,7 @@ impl Parser<'_, '_> {
         };
         self.at += 1;
         let ty = self.ty()?;
-        // A declaration has no value; what follows then is on the next line, or a comma.
+        // A declaration has no value; then a new line or a comma follows.
         let declared = matches!(linkage.as_deref(), Some("external" | "extern_weak"));
         let value = if declared { None } else { Some(self.value(&ty)?) };
         let (mut section, mut align) = (None, None);
@@ -168,7 +168,7 @@ impl Parser<'_, '_> {
     fn metadata_node(&mut self, distinct: bool) -> Parsed<String> {
         let mut text = String::from(if distinct { "distinct " } else { "" });
         let line = self.next_line();
-        // A node is on one line.
+        // A node ends at the end of its line.
         while self.next_line() == line && self.peek() != Token::End {
             self.metadata_token(&mut text)?;
         }
@@ -259,7 +259,8 @@ impl Parser<'_, '_> {
         let parameters: Vec<Argument> = parameters.into_iter().flatten().collect();
         while self.one_of(&VISIBILITY).is_some() {}
         let mut attributes = self.function_attributes()?;
-        // libNVVM adds `readnone` to those that turn out to be so, and then refuses both. What calls say of themselves stays.
+        // libNVVM itself adds `readnone` to functions for which it holds, and then refuses that beside
+        // `inaccessiblememonly`. The attributes of calls are kept.
         attributes.retain(|word| word != "inaccessiblememonly");
         let (blocks, debug) = (Vec::new(), None);
         let mut function =
@@ -293,7 +294,7 @@ impl Parser<'_, '_> {
         Ok(function)
     }
 
-    /// Whether it is that of kernels.
+    /// Reads a calling convention; returns whether it is that of kernels.
     fn convention(&mut self) -> Parsed<bool> {
         if self.eat_word("ptx_kernel") {
             return Ok(true);
@@ -302,7 +303,7 @@ impl Parser<'_, '_> {
         Ok(false)
     }
 
-    /// As in `fastcc` before a call's type.
+    /// Skips a calling convention such as `fastcc`.
     pub(super) fn skip_convention(&mut self) {
         self.one_of(&CONVENTIONS);
     }
@@ -310,7 +311,7 @@ impl Parser<'_, '_> {
     fn blocks(&mut self, parameters: &[Argument]) -> Parsed<Vec<Block>> {
         let is_number = |name: &String| name.bytes().all(|b| b.is_ascii_digit());
         let unnamed = parameters.iter().filter(|p| matches!(&p.value.value, Value::Local(name) if is_number(name)));
-        // The first block is called by the next number where it has no name.
+        // If the first block has no name, its name is the next number.
         let mut block = Block { name: unnamed.count().to_string(), instructions: Vec::new() };
         let mut blocks = Vec::new();
         loop {
@@ -334,7 +335,7 @@ impl Parser<'_, '_> {
                         ));
                     }
                 }
-                // `#dbg_value(..)`: what a debugger wants to know.
+                // Skips `#dbg_value(..)`, which is for debuggers.
                 Token::Group(record) if record.starts_with("dbg_") => {
                     self.at += 1;
                     self.parentheses()?;
@@ -351,7 +352,7 @@ impl Parser<'_, '_> {
     }
 }
 
-/// The results of nothing: used where a type says `void`.
+/// Whether a type is `void`, which has no values.
 pub(super) fn is_nothing(ty: &Type) -> bool {
     *ty == Type::Void
 }

@@ -1,15 +1,15 @@
-//! Types.
+//! Parses types.
 
 use super::{Parsed, Parser};
 use crate::lexer::Token;
 use crate::model::Type;
 use crate::unknown::Unknown;
 
-/// Vectors longer than this are written out by nobody; arrays may be as long as they like.
+/// No compiler writes longer vectors than this. Arrays may have any length.
 const LONGEST_VECTOR: u64 = 256;
 
 impl Parser<'_, '_> {
-    /// Whether a type comes next.
+    /// Whether the next token begins a type.
     pub(super) fn is_type(&self) -> bool {
         match self.peek() {
             Token::Word(word) => {

@@ -1,4 +1,4 @@
-//! Values: names, constants, and constants that are computed.
+//! Parses values: names, constants, and constant expressions.
 
 use super::{Parsed, Parser};
 use crate::lexer::Token;
@@ -99,7 +99,7 @@ impl Parser<'_, '_> {
         Ok(Value::Expression(Box::new(Expression::Address { inbounds, of, base, indices })))
     }
 
-    /// The flags of an address computation; whether `inbounds` is one of them.
+    /// Skips the flags of an address computation, and returns whether `inbounds` is among them.
     pub(super) fn address_flags(&mut self) -> Parsed<bool> {
         let mut inbounds = false;
         loop {
@@ -112,7 +112,7 @@ impl Parser<'_, '_> {
     }
 }
 
-/// Whether the word is a constant of the type, as LLVM has written them up to version 22.
+/// Whether the word is a constant of the type, in the notations of LLVM up to version 22.
 fn is_number(word: &str, ty: &Type) -> bool {
     let digits = word.strip_prefix('-').unwrap_or(word);
     match ty {

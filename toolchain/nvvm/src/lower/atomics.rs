@@ -1,14 +1,14 @@
 //! Atomic memory operations, as PTX has them from `sm_70` on.
 //!
-//! LLVM 7 gives no ordering to the few that it knows, so all of them are inline assembly: PTX's memory model is the
-//! one that Rust's maps to.
+//! LLVM 7 knows few atomic operations and no ordering for them, so all of them become inline assembly. Rust's memory
+//! model maps to that of PTX.
 
 use super::builder::{Builder, constant};
 use optix_llvm_ir::Unknown;
 use optix_llvm_ir::model::{Ordering, Type, Typed};
 use optix_llvm_ir::opcode::{Atomic, Binary, Cast, IntPredicate, Order};
 
-/// The way out for what the GPU has no instruction for.
+/// What to do about operations that the GPU has no instruction for.
 const WIDER: &str = "use an atomic of 32 or 64 bits";
 
 pub(super) fn load(
@@ -48,7 +48,7 @@ pub(super) fn read_modify_write(
 ) -> Result<Typed, Unknown> {
     let access = Access::of(&value.ty, pointer, ordering)?;
     let bits = access.at_least_32(&value.ty)?;
-    // There is no subtraction.
+    // PTX has no atomic subtraction, so the negative is added.
     let operand =
         if op == Atomic::Sub { builder.binary(Binary::Sub, &constant(&value.ty, 0), value) } else { value.clone() };
     let (op, ty) = match op {
@@ -66,7 +66,7 @@ pub(super) fn read_modify_write(
     Ok(builder.asm_memory(&text, &format!("={class},l,{class}"), &access.register, &[pointer, &operand]))
 }
 
-/// The old value, and whether it was replaced.
+/// The result of a compare-exchange: the old value, and whether it was replaced.
 pub(super) fn compare_exchange(
     builder: &mut Builder<'_>,
     pointer: &Typed,
@@ -90,7 +90,7 @@ pub(super) fn compare_exchange(
 
 pub(super) fn fence(builder: &mut Builder<'_>, ordering: &Ordering) -> Result<(), Unknown> {
     if ordering.scope == "singlethread" {
-        // For the compiler alone, which moves no memory access over this.
+        // This fence is for the compiler only, which moves no memory access across it.
         builder.asm_memory("", "", &Type::Void, &[]);
         return Ok(());
     }
@@ -101,15 +101,15 @@ pub(super) fn fence(builder: &mut Builder<'_>, ordering: &Ordering) -> Result<()
 
 /// The parts of an instruction.
 struct Access {
-    /// What comes before it.
+    /// The fence that comes before the instruction.
     fence: String,
-    /// Of a read-modify-write.
+    /// The operation of a read-modify-write instruction.
     order: &'static str,
     scope: &'static str,
     space: &'static str,
     /// PTX's type of the memory.
     ty: String,
-    /// The constraint of a register that holds it, and the type that has such registers.
+    /// The constraint of a register that holds the value, and the type that such a register has.
     class: char,
     register: Type,
 }

@@ -1,4 +1,4 @@
-//! Makes instructions.
+//! Appends instructions to the function that is being lowered.
 
 use std::collections::{HashMap, HashSet};
 
@@ -7,7 +7,7 @@ use optix_llvm_ir::Unknown;
 use optix_llvm_ir::model::{Argument, Attributes, Call, Callee, Instruction, Op, Type, Typed, Value};
 use optix_llvm_ir::opcode::{Binary, Cast, IntPredicate, Predicate};
 
-/// The first character of names that are made here; no compiler writes it.
+/// The first character of names that are made here. No compiler writes it.
 pub(crate) const FRESH: char = '~';
 
 pub(super) struct Builder<'a> {
@@ -15,13 +15,13 @@ pub(super) struct Builder<'a> {
     /// The functions that the module defines.
     own: &'a HashSet<String>,
     out: Vec<Instruction>,
-    /// What is named in place of an instruction's result.
+    /// The values that replace the results of instructions.
     renamed: HashMap<String, Value>,
-    /// Local names whose value can't be undefined.
+    /// The local names whose values can't be undefined.
     pub defined: HashSet<String>,
     /// The line of the text that is being lowered.
     pub line: usize,
-    /// What is said of its source.
+    /// Its debug location.
     debug: Option<(String, String)>,
     count: usize,
 }
@@ -31,13 +31,13 @@ impl<'a> Builder<'a> {
         Self { called, own, out: Vec::new(), renamed: HashMap::new(), defined, line: 0, debug: None, count: 0 }
     }
 
-    /// What is appended from here on stands for this instruction.
+    /// From here on, what is appended replaces this instruction.
     pub fn at(&mut self, instruction: &Instruction) {
         self.line = instruction.line;
         self.debug = instruction.metadata.iter().find(|(name, _)| name == "dbg").cloned();
     }
 
-    /// The instructions since the last time.
+    /// Takes the instructions that were appended since the last call.
     pub fn take(&mut self) -> Vec<Instruction> {
         std::mem::take(&mut self.out)
     }
@@ -102,7 +102,7 @@ impl<'a> Builder<'a> {
         self.select(&condition, a, b)
     }
 
-    /// A conversion; nothing if it has the type already.
+    /// A conversion, which is left out if the value has the type already.
     pub fn cast(&mut self, op: Cast, value: &Typed, to: &Type) -> Typed {
         if value.ty == *to {
             return value.clone();
@@ -128,7 +128,7 @@ impl<'a> Builder<'a> {
         self.push(Op::InsertValue { aggregate: one, value: b.clone(), indices: vec![1] }, ty)
     }
 
-    /// Calls a function that LLVM 7 or libdevice has, which depends on its arguments only.
+    /// Calls a function of LLVM 7 or libdevice whose result depends only on its arguments.
     pub fn pure(&mut self, name: &str, result: &Type, arguments: &[&Typed]) -> Result<Typed, Unknown> {
         let arguments = arguments.iter().map(|value| argument((*value).clone())).collect();
         let call = self.call_of(name, result, arguments, vec!["nounwind".into(), "readnone".into()])?;
@@ -174,7 +174,8 @@ impl<'a> Builder<'a> {
         Ok(Call { tail: false, flags: Vec::new(), result: result.clone(), callee, arguments, attributes })
     }
 
-    /// Inline assembly that depends on its operands only. The result's class is a letter of its constraint.
+    /// Inline assembly whose result depends only on its operands. The letter of the constraint gives the class of the
+    /// result's register.
     pub fn asm(&mut self, text: &str, constraints: &str, result: &Type, operands: &[&Typed]) -> Typed {
         let call = asm_call(text, constraints, result, operands, false);
         self.push(Op::Call(call), result.clone())
@@ -213,7 +214,7 @@ pub(super) fn asm_call(text: &str, constraints: &str, result: &Type, operands: &
     }
 }
 
-/// The integer in each element of the type.
+/// A constant of the type with this integer in each element.
 pub(super) fn constant(ty: &Type, value: i128) -> Typed {
     let value = match ty {
         Type::Vector(count, element) => {
@@ -224,7 +225,7 @@ pub(super) fn constant(ty: &Type, value: i128) -> Typed {
     Typed::new(ty.clone(), value)
 }
 
-/// The float in each element of the type. For `half` and `float` it must be one of theirs.
+/// A constant of the type with this float in each element. For `half` and `float` it must be exactly representable.
 pub(super) fn float(ty: &Type, value: f64) -> Typed {
     let one = match ty.element() {
         Type::Half => unreachable!("arithmetic on `half` is done in `float`"),

@@ -1,14 +1,14 @@
 //! Loops without an end.
 //!
-//! LLVM 7 takes it that every loop without effects ends, and a Rust program may wait forever in `loop {}`. An empty
-//! piece of inline assembly is an effect.
+//! LLVM 7 assumes that every loop without effects ends, but a Rust program may wait forever in `loop {}`. An empty
+//! piece of inline assembly counts as an effect.
 
 use std::collections::{HashMap, HashSet};
 
 use super::builder::asm_call;
 use optix_llvm_ir::model::{Function, Instruction, Op, Type};
 
-/// Puts an effect into each block from which no end of the function can be reached.
+/// Puts such an effect into each block from which the function's end can't be reached.
 pub(super) fn mark(function: &mut Function) {
     let mut before: HashMap<&str, Vec<&str>> = HashMap::new();
     let mut waiting: Vec<&str> = Vec::new();

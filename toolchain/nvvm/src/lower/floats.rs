@@ -6,14 +6,14 @@ use optix_llvm_ir::Unknown;
 use optix_llvm_ir::model::{Op, Type, Typed, Value};
 use optix_llvm_ir::opcode::{Binary, Cast, FloatPredicate, IntPredicate};
 
-/// Keeps libNVVM from what it fails at: it joins stores to a vector of eight halves, which it can't store, and has no conversion
-/// of a half to 128 bits.
+/// Avoids two things at which libNVVM fails: it joins stores to a vector of eight halves, which it then can't store,
+/// and it has no conversion of a half to 128 bits.
 pub(super) fn avoid_halves(builder: &mut Builder<'_>, op: &mut Op) {
     match op {
-        // It joins no more than are known to be aligned.
+        // It joins only as many stores as the alignment is known to allow.
         Op::Store { value, align: Some(align), .. } if value.ty == Type::Half => *align = (*align).min(8),
         Op::Cast { op: op @ (Cast::FPToUI | Cast::FPToSI), value, to: Type::Int(65..) } if value.ty == Type::Half => {
-            // The greatest half is 65,504, and what does not fit is undefined.
+            // The greatest half is 65,504, so 32 bits hold any that can be converted; others are undefined.
             let extend = if *op == Cast::FPToSI { Cast::SExt } else { Cast::ZExt };
             *value = builder.cast(*op, value, &Type::Int(32));
             *op = extend;
@@ -22,10 +22,11 @@ pub(super) fn avoid_halves(builder: &mut Builder<'_>, op: &mut Op) {
     }
 }
 
-/// The number below one half, in either type: added before cutting off, it rounds to the nearest integer, ties away.
+/// The greatest number below one half, in either type. Added before the fraction is cut off, it rounds to the nearest
+/// integer, with ties away from zero.
 const BELOW_HALF: (f64, f64) = (f32::from_bits(0x3eff_ffff) as f64, 0.499_999_999_999_999_94);
 
-/// How intrinsics of NVVM name the two types.
+/// The names that NVVM's intrinsics have for the two types.
 fn letter(ty: &Type) -> Result<char, Unknown> {
     match ty {
         Type::Float => Ok('f'),
@@ -41,21 +42,22 @@ pub(super) fn negate(builder: &mut Builder<'_>, value: &Typed) -> Result<Typed, 
         let bits = builder.with(Binary::Xor, &bits, -0x8000);
         return Ok(builder.cast(Cast::Bitcast, &bits, &value.ty));
     }
-    // What LLVM 7 understands as a negation.
+    // LLVM 7 recognises this as a negation.
     Ok(builder.binary(Binary::FSub, &float(&value.ty, -0.0), value))
 }
 
-/// `frem`, which LLVM 7 would compute by a rounded division.
+/// `frem`, which LLVM 7 would compute from a rounded division, and so inexactly.
 pub(super) fn remainder(builder: &mut Builder<'_>, a: &Typed, b: &Typed) -> Result<Typed, Unknown> {
     elementwise(builder, &[a.clone(), b.clone()], &|builder, args| {
         libdevice::call(builder, "fmod", &[&args[0], &args[1]])
     })
 }
 
-/// What is done to scalars of one type.
+/// An operation on scalars of one type.
 type Scalar<'f> = dyn Fn(&mut Builder<'_>, &[Typed]) -> Result<Typed, Unknown> + 'f;
 
-/// `f` of each element, in `float` where the elements are `half`: exact or rounded twice without harm for what it is used for.
+/// Applies `f` to each element, as `float` if the elements are `half`. The results are exact, or rounding them twice
+/// does no harm for what this is used for.
 fn elementwise(builder: &mut Builder<'_>, arguments: &[Typed], f: &Scalar<'_>) -> Result<Typed, Unknown> {
     let ty = arguments[0].ty.clone();
     match &ty {
@@ -77,7 +79,7 @@ fn elementwise(builder: &mut Builder<'_>, arguments: &[Typed], f: &Scalar<'_>) -
     }
 }
 
-/// A function of one float type with one to three arguments, by LLVM's name. None: it is no such function.
+/// A function of one float type with one to three arguments, by its name in LLVM. `None` if it is no such function.
 pub(super) fn function(builder: &mut Builder<'_>, name: &str, arguments: &[Typed]) -> Option<Result<Typed, Unknown>> {
     if arguments[0].ty == Type::Half && matches!(name, "fma" | "fmuladd") {
         return Some(Err(Unknown::new("`fma` of `f16`").hint("use `f32` there")));
@@ -115,24 +117,24 @@ fn of_nvvm(builder: &mut Builder<'_>, name: &str, arguments: &[Typed]) -> Result
     let name = match name {
         "maxnum" | "maximumnum" => "fmax",
         "minnum" | "minimumnum" => "fmin",
-        // NVVM's `round` goes to the even integer on a tie.
+        // NVVM's `round` rounds ties to the even integer, so it does not serve.
         "rint" | "nearbyint" | "roundeven" => "round",
         name => name,
     };
     builder.pure(&format!("llvm.nvvm.{name}.{}", letter(ty)?), ty, &arguments.iter().collect::<Vec<_>>())
 }
 
-/// To the nearest integer, ties away from zero.
+/// Rounds to the nearest integer, with ties away from zero.
 fn round(builder: &mut Builder<'_>, _: &str, arguments: &[Typed]) -> Result<Typed, Unknown> {
     let (a, letter) = (&arguments[0], letter(&arguments[0].ty)?);
     let half = float(&a.ty, if letter == 'f' { BELOW_HALF.0 } else { BELOW_HALF.1 });
     let half = native(builder, "copysign", &[half, a.clone()])?;
-    // As an intrinsic it is never contracted with a product before it.
+    // An addition by an intrinsic is never contracted with a product before it.
     let sum = builder.pure(&format!("llvm.nvvm.add.rn.{letter}"), &a.ty, &[a, &half])?;
     builder.pure(&format!("llvm.nvvm.trunc.{letter}"), &a.ty, &[&sum])
 }
 
-/// `maximum` and `minimum`, which are NaN if an operand is.
+/// `maximum` and `minimum`, whose result is NaN if one of the operands is.
 fn with_nan(builder: &mut Builder<'_>, name: &str, arguments: &[Typed]) -> Result<Typed, Unknown> {
     let (a, b) = (&arguments[0], &arguments[1]);
     let number = of_nvvm(builder, if name == "maximum" { "maxnum" } else { "minnum" }, arguments)?;
@@ -141,7 +143,7 @@ fn with_nan(builder: &mut Builder<'_>, name: &str, arguments: &[Typed]) -> Resul
     Ok(builder.select(&unordered, &nan, &number))
 }
 
-/// A float to the nearest integer towards zero that the type has; NaN to 0.
+/// Converts a float to an integer, towards zero and saturating at the limits of the type; NaN becomes 0.
 pub(super) fn to_integer(builder: &mut Builder<'_>, signed: bool, value: &Typed, to: &Type) -> Result<Typed, Unknown> {
     let value = &if value.ty == Type::Half { builder.cast(Cast::FPExt, value, &Type::Float) } else { value.clone() };
     let letter = letter(&value.ty)?;
@@ -155,7 +157,7 @@ pub(super) fn to_integer(builder: &mut Builder<'_>, signed: bool, value: &Typed,
     let name = format!("llvm.nvvm.{letter}2{}{int}.rz", if signed { "" } else { "u" });
     let mut result = builder.pure(&name, &ty, &[value])?;
     if letter == 'd' || wide == 64 {
-        // Only from `float` to 32 bits does it give 0 for NaN.
+        // Only the conversion from `float` to 32 bits gives 0 for NaN.
         let nan = builder.compare(FloatPredicate::Uno, value, value);
         result = builder.select(&nan, &constant(&ty, 0), &result);
     }
@@ -173,7 +175,7 @@ pub(super) fn to_integer(builder: &mut Builder<'_>, signed: bool, value: &Typed,
     Ok(builder.cast(Cast::Trunc, &result, to))
 }
 
-/// Whether a float is of one of the classes in the mask, as LLVM numbers them.
+/// Whether a float is of one of the classes in the mask, whose bits are LLVM's.
 pub(super) fn is_class(builder: &mut Builder<'_>, value: &Typed, mask: u32) -> Result<Typed, Unknown> {
     let (bits, mantissa) = match value.ty {
         Type::Half => (16, 10),
@@ -190,7 +192,7 @@ pub(super) fn is_class(builder: &mut Builder<'_>, value: &Typed, mask: u32) -> R
     let negative = builder.compare(IntPredicate::Slt, &word, &number(0));
 
     let mut is = Typed::int(1, 0);
-    // Signalling NaNs have a zero in the first bit of the mantissa.
+    // Signalling NaNs have 0 as the first bit of the mantissa.
     if mask & 3 == 3 {
         let nan = builder.compare(IntPredicate::Ugt, &magnitude, &number(infinity));
         is = builder.binary(Binary::Or, &is, &nan);
@@ -205,7 +207,8 @@ pub(super) fn is_class(builder: &mut Builder<'_>, value: &Typed, mask: u32) -> R
         };
         is = builder.binary(Binary::Or, &is, &nan);
     }
-    // The bit of the class with a minus, and of that with a plus; the magnitudes from the first to before the last.
+    // For each class: the number of its bit for negative numbers and of that for positive ones, and the range of its
+    // magnitudes, without the end.
     let classes =
         [(2, 9, infinity, infinity + 1), (3, 8, least_normal, infinity), (4, 7, 1, least_normal), (5, 6, 0, 1)];
     for (minus, plus, first, end) in classes {

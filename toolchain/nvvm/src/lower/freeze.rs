@@ -1,7 +1,7 @@
-//! `freeze`: any value in place of an undefined one, but the same wherever it is used.
+//! `freeze`: replaces an undefined value by any value, which is the same wherever it is used.
 //!
-//! LLVM 7 has nothing like it. A value that is defined stays as it is; any other passes through a `mov` in inline
-//! assembly, which LLVM can't see through and the assembler removes.
+//! LLVM 7 has nothing like it. A value that is known to be defined stays as it is. Any other passes through a `mov` in
+//! inline assembly, which LLVM can't see through and the assembler removes.
 
 use std::collections::HashSet;
 
@@ -70,7 +70,7 @@ fn scalar(builder: &mut Builder<'_>, value: &Typed) -> Result<Typed, Unknown> {
     }
 }
 
-/// The local names whose values can't be undefined, as far as one pass finds them.
+/// The local names whose values can't be undefined, as far as one pass over the function finds them.
 pub(super) fn defined(function: &Function) -> HashSet<String> {
     let mut defined = HashSet::new();
     for parameter in &function.parameters {
@@ -103,7 +103,7 @@ fn gives_defined(instruction: &Instruction, defined: &HashSet<String>) -> bool {
     let is = |value: &Value| is_defined(value, defined);
     match &instruction.op {
         Op::Freeze { .. } => true,
-        // Whatever a register holds is a value.
+        // The result of inline assembly is whatever a register holds, which is a value.
         Op::Call(call) => matches!(call.callee, Callee::Asm { .. }),
         Op::Load { .. } => instruction.metadata.iter().any(|(name, _)| name == "noundef"),
         Op::Binary { op, flags, a, b } if flags.is_empty() => {
@@ -127,7 +127,7 @@ fn gives_defined(instruction: &Instruction, defined: &HashSet<String>) -> bool {
         }
         Op::Compare { flags, a, b, .. } if flags.is_empty() => is(&a.value) && is(b),
         Op::Negate { value } => is(&value.value),
-        // The value of what does not fit an integer is undefined.
+        // If a float does not fit the integer, the result is undefined.
         Op::Cast { op, value, .. } => !matches!(op, Cast::FPToUI | Cast::FPToSI) && is(&value.value),
         Op::Select { condition, yes, no } => [condition, yes, no].iter().all(|operand| is(&operand.value)),
         Op::Phi { incoming, .. } => incoming.iter().all(|(value, _)| is(value)),

@@ -5,7 +5,7 @@ use optix_llvm_ir::Unknown;
 use optix_llvm_ir::model::{Type, Typed};
 use optix_llvm_ir::opcode::{Binary, Cast, IntPredicate};
 
-/// The way out for arithmetic of more than 64 bits.
+/// What to do about arithmetic of more than 64 bits.
 const NARROWER: &str = "use integers of up to 64 bits there";
 
 fn bits(value: &Typed) -> Result<u32, Unknown> {
@@ -15,17 +15,18 @@ fn bits(value: &Typed) -> Result<u32, Unknown> {
     }
 }
 
-/// The largest value of that many bits, with a sign.
+/// The largest signed value of that many bits.
 fn signed_max(bits: u32) -> i128 {
     i128::MAX >> (128 - bits)
 }
 
-/// `umin`, `smax` and the like; `predicate` holds between the first operand and the second if the first is the result.
+/// `umin`, `smax` and the like. The result is the first operand if `predicate` holds between the operands, and
+/// otherwise the second.
 pub(super) fn least(builder: &mut Builder<'_>, predicate: IntPredicate, a: &Typed, b: &Typed) -> Typed {
     builder.select_by(predicate, a, b)
 }
 
-/// `abs`; that of the smallest integer is itself.
+/// `abs`. The absolute value of the smallest integer is that integer.
 pub(super) fn abs(builder: &mut Builder<'_>, a: &Typed) -> Typed {
     let zero = constant(&a.ty, 0);
     let negated = builder.binary(Binary::Sub, &zero, a);
@@ -33,7 +34,7 @@ pub(super) fn abs(builder: &mut Builder<'_>, a: &Typed) -> Typed {
     builder.select(&negative, &negated, a)
 }
 
-/// `ucmp` and `scmp`: -1, 0 or 1 of the type `to`.
+/// `ucmp` and `scmp`: -1, 0 or 1, of the type `to`.
 pub(super) fn three_way(builder: &mut Builder<'_>, signed: bool, a: &Typed, b: &Typed, to: &Type) -> Typed {
     let (less, greater) =
         if signed { (IntPredicate::Slt, IntPredicate::Sgt) } else { (IntPredicate::Ult, IntPredicate::Ugt) };
@@ -43,7 +44,8 @@ pub(super) fn three_way(builder: &mut Builder<'_>, signed: bool, a: &Typed, b: &
     builder.select(&greater, &constant(to, 1), &less)
 }
 
-/// `fshl` and `fshr`: the high or the low half of two integers side by side, shifted by `amount` modulo the bits.
+/// `fshl` and `fshr`: two integers side by side are shifted by `amount` modulo their bits, and the result is the high
+/// or the low half.
 pub(super) fn funnel(
     builder: &mut Builder<'_>,
     left: bool,
@@ -64,7 +66,7 @@ pub(super) fn funnel(
         return Ok(builder.binary(Binary::Or, &near, &far));
     }
     if bits == 32 {
-        // One instruction, which takes the amount modulo 32.
+        // A single instruction does this; it takes the amount modulo 32.
         let text = format!("shf.{}.wrap.b32 $0, $1, $2, $3;", if left { 'l' } else { 'r' });
         return Ok(builder.asm(&text, "=r,r,r,r", &high.ty, &[low, high, amount]));
     }
@@ -74,7 +76,7 @@ pub(super) fn funnel(
     } else {
         builder.with(Binary::URem, amount, i128::from(bits))
     };
-    // A shift by all of the bits is undefined: the far half goes by one first.
+    // A shift by the full number of bits is undefined, so the other half is shifted by one first.
     let rest = builder.binary(Binary::Sub, &constant(&amount.ty, most), &amount);
     let near = builder.binary(there, near, &amount);
     let far = builder.with(back, far, 1);
@@ -82,7 +84,7 @@ pub(super) fn funnel(
     Ok(builder.binary(Binary::Or, &near, &far))
 }
 
-/// The result of an operation, and whether it went out of range.
+/// The result of an operation, and whether it overflowed.
 pub(super) struct Overflowing {
     pub result: Typed,
     pub out: Typed,
@@ -95,7 +97,8 @@ pub(super) fn overflowing(builder: &mut Builder<'_>, signed: bool, op: Binary, a
         (false, Binary::Add) => builder.compare(IntPredicate::Ult, &result, a),
         (false, _) => builder.compare(IntPredicate::Ult, a, b),
         (true, _) => {
-            // Out of range: the operands' signs allow it, and the result's differs from the first one's.
+            // It overflowed if the signs of the operands allow that, and the sign of the result differs from that of
+            // the first.
             let one = builder.binary(Binary::Xor, a, &result);
             let other = if op == Binary::Add {
                 builder.binary(Binary::Xor, b, &result)
@@ -109,7 +112,7 @@ pub(super) fn overflowing(builder: &mut Builder<'_>, signed: bool, op: Binary, a
     Overflowing { result, out }
 }
 
-/// `add`, `sub` or `mul` `.with.overflow` in the width that the caller has. LLVM 7 has multiplications of 16 to 64 bits.
+/// `add`, `sub` or `mul` `.with.overflow`, in a width that LLVM 7 has. It has multiplications of 16 to 64 bits.
 pub(super) fn with_overflow(
     builder: &mut Builder<'_>,
     signed: bool,
@@ -141,7 +144,7 @@ pub(super) fn with_overflow(
     Ok(builder.pair(&overflowing.result, &overflowing.out))
 }
 
-/// A product that fits if dividing it by one factor gives the other.
+/// A product, which did not overflow if dividing it by one factor gives the other.
 fn checked_product(builder: &mut Builder<'_>, signed: bool, a: &Typed, b: &Typed) -> Overflowing {
     let result = builder.binary(Binary::Mul, a, b);
     let (zero, one, minus_one) = (constant(&a.ty, 0), constant(&a.ty, 1), constant(&a.ty, -1));
@@ -149,7 +152,8 @@ fn checked_product(builder: &mut Builder<'_>, signed: bool, a: &Typed, b: &Typed
     let mut divisor = builder.select(&by_zero, &one, a);
     let negates = builder.compare(IntPredicate::Eq, a, &minus_one);
     if signed {
-        // The least number divided by -1 has no quotient, and by -1 no other product overflows.
+        // The quotient of the least number and -1 overflows, so a factor of -1 is checked on its own: only the product
+        // with the least number overflows.
         divisor = builder.select(&negates, &one, &divisor);
     }
     let quotient = builder.binary(if signed { Binary::SDiv } else { Binary::UDiv }, &result, &divisor);
@@ -182,7 +186,8 @@ pub(super) fn saturating(
         (result, out)
     };
     let limit = if signed {
-        // The limit is on the side of the first operand: 0 or -1, with all bits but the sign turned.
+        // The limit has the sign of the first operand: its sign bit, spread over all bits, with all but the sign
+        // inverted.
         let sign = builder.with(Binary::AShr, a, i128::from(bits) - 1);
         builder.with(Binary::Xor, &sign, signed_max(bits))
     } else {
@@ -191,14 +196,14 @@ pub(super) fn saturating(
     Ok(builder.select(&out, &limit, &result))
 }
 
-/// `ctpop`, `ctlz`, `cttz`, `bswap` and `bitreverse`, of 128 bits by halves.
+/// `ctpop`, `ctlz`, `cttz`, `bswap` and `bitreverse`. Those of 128 bits are computed from two halves.
 pub(super) fn bit_operation(builder: &mut Builder<'_>, op: &str, a: &Typed) -> Result<Typed, Unknown> {
     let known: &[u32] = if op == "bswap" { &[16, 32, 64] } else { &[8, 16, 32, 64] };
     match bits(a)? {
         bits if known.contains(&bits) => {
             let name = format!("llvm.{op}.i{bits}");
             if matches!(op, "ctlz" | "cttz") {
-                // That of zero is the number of bits: never undefined, and one instruction all the same.
+                // The result for zero is defined as the number of bits, which is still a single instruction.
                 return builder.pure(&name, &a.ty, &[a, &Typed::int(1, 0)]);
             }
             builder.pure(&name, &a.ty, &[a])
@@ -227,7 +232,7 @@ pub(super) fn bit_operation(builder: &mut Builder<'_>, op: &str, a: &Typed) -> R
                 }
             })
         }
-        // Another width: as a part of the next known one.
+        // Other widths are computed in the next larger width that is known.
         bits if bits < 64 && matches!(op, "ctpop" | "ctlz" | "cttz") => {
             let wide = builder.cast(Cast::ZExt, a, &Type::Int(64));
             let wide = match op {

@@ -1,6 +1,7 @@
-//! Calls of `llvm.*`: which are kept, replaced, left out or refused.
+//! Calls of `llvm.*`, which are kept, replaced, left out or refused.
 //!
-//! libNVVM takes an intrinsic that it does not know for a function of somebody else's, so nothing passes unseen.
+//! libNVVM takes an unknown intrinsic for a function that is defined elsewhere. So an intrinsic that is not known here
+//! is refused.
 
 use super::builder::{Builder, argument};
 use super::{Lowered, floats, integers, libdevice, reduce};
@@ -8,7 +9,7 @@ use optix_llvm_ir::Unknown;
 use optix_llvm_ir::model::{Argument, Call, Type, Typed, Value};
 use optix_llvm_ir::opcode::{Binary, Cast, IntPredicate};
 
-/// What only tells the optimiser or a debugger something, and has no result.
+/// Intrinsics without a result that only tell the optimiser or a debugger something.
 const LEFT_OUT: [&str; 7] = [
     "lifetime.start",
     "lifetime.end",
@@ -19,7 +20,7 @@ const LEFT_OUT: [&str; 7] = [
     "prefetch",
 ];
 
-/// What is its first argument, with something said about it.
+/// Intrinsics that return their first argument, and only tell something about it.
 const SAME: [&str; 5] =
     ["expect", "expect.with.probability", "ssa.copy", "launder.invariant.group", "strip.invariant.group"];
 
@@ -62,7 +63,7 @@ pub(super) fn lower(builder: &mut Builder<'_>, call: &Call, name: &str) -> Lower
     }
 }
 
-/// `umax` in `llvm.umax.v4i32`: without what it begins with and without the types it is for.
+/// The operation in an intrinsic's name, such as `umax` in `llvm.umax.v4i32`, without the prefix and the types.
 fn base(name: &str) -> &str {
     let mut base = name.strip_prefix("llvm.").unwrap_or(name);
     if base.starts_with("nvvm.") {
@@ -93,7 +94,7 @@ fn memory(builder: &mut Builder<'_>, op: &str, arguments: &[Argument]) -> Result
         match argument.value.ty {
             Type::Pointer(space) => name.push_str(&format!(".p{space}")),
             Type::Int(bits @ (32 | 64)) => name.push_str(&format!(".i{bits}")),
-            // What a fill fills with.
+            // The byte that a fill writes.
             Type::Int(8) => {}
             _ => return Err(Unknown::new(format!("`{op}` of {:?}", argument.value.ty))),
         }
@@ -103,7 +104,7 @@ fn memory(builder: &mut Builder<'_>, op: &str, arguments: &[Argument]) -> Result
     builder.effect(&name, arguments, vec!["nounwind".into()])
 }
 
-/// What is done to each element if the result is a vector.
+/// An operation that is done to each element if the result is a vector.
 fn elementwise(builder: &mut Builder<'_>, base: &str, arguments: &[Typed], result: &Type) -> Result<Typed, Unknown> {
     let Type::Vector(count, element) = result else {
         return scalar(builder, base, arguments, result);

@@ -5,7 +5,7 @@ use super::builder::Builder;
 use optix_llvm_ir::Unknown;
 use optix_llvm_ir::model::{Call, Type, Typed};
 
-/// What its names begin with.
+/// The prefix of the names of its functions.
 pub(super) const PREFIX: &str = "__nv_";
 
 /// Functions of one type, by their names in C, with the number of arguments.
@@ -48,7 +48,7 @@ pub(super) fn of_symbol(symbol: &str) -> Option<String> {
     (is(symbol) || symbol.strip_suffix('f').is_some_and(is)).then(|| format!("{PREFIX}{symbol}"))
 }
 
-/// Whether it is C's function `name` of that many arguments.
+/// Whether `name` is a function of C with that many arguments.
 pub(super) fn knows(name: &str, arguments: usize) -> bool {
     FUNCTIONS.contains(&(name, arguments))
 }
@@ -60,7 +60,7 @@ pub(super) fn call(builder: &mut Builder<'_>, name: &str, arguments: &[&Typed]) 
     builder.pure(&format!("{PREFIX}{name}{suffix}"), ty, arguments)
 }
 
-/// A call of `sinf` that rustc left to be found elsewhere.
+/// A call of a C function such as `sinf`, which rustc expects to be linked.
 pub(super) fn call_of_symbol(builder: &mut Builder<'_>, call: &Call, symbol: &str) -> Lowered {
     let name = of_symbol(symbol).unwrap_or_default();
     builder.call(&name, call)

@@ -1,7 +1,7 @@
-//! Modern LLVM IR to the instructions that LLVM 7 has.
+//! Lowers modern LLVM IR to the instructions of LLVM 7.
 //!
-//! Each instruction that LLVM 7 does not know becomes several that it does, in the same block; pointers without a
-//! pointee stay what they are, since only the printer has to name pointees. What is not known is refused.
+//! An instruction that LLVM 7 does not know becomes several that it knows, in the same block. Pointers stay without a
+//! pointee, since only the printer has to name pointees. What is not known here is refused.
 
 mod atomics;
 mod builder;
@@ -24,13 +24,13 @@ use optix_llvm_ir::Unknown;
 use optix_llvm_ir::model::{Argument, Function, Instruction, Module, Op, Type, Typed, Value};
 use optix_llvm_ir::opcode::Binary;
 
-/// The functions that lowered code calls, by name: result and parameters.
+/// The functions that lowered code calls: name, result and parameters.
 type Called = BTreeMap<String, (Type, Vec<Type>)>;
 
-/// A lowered instruction's value: what its result is from now on. None: it has none.
+/// The value that replaces a lowered instruction's result. `None` if it has no result.
 type Lowered = Result<Option<Typed>, Unknown>;
 
-/// Lowers every function. `text` is what the module was read from. Returns whether it needs libdevice.
+/// Lowers every function. `text` is the text that the module was read from. Returns whether the module needs libdevice.
 pub(super) fn module(module: &mut Module, text: &str) -> Result<bool, Refusal> {
     let mut called = Called::new();
     let is_own = |function: &&Function| !function.blocks.is_empty();
@@ -38,7 +38,8 @@ pub(super) fn module(module: &mut Module, text: &str) -> Result<bool, Refusal> {
     for function in &mut module.functions {
         self::function(function, &mut called, &own, text)?;
     }
-    // What was declared for the newer LLVM; calls of them are gone, or were declared anew.
+    // Declarations of intrinsics of the newer LLVM go: their calls have been replaced, or use declarations that were
+    // added.
     module.functions.retain(|function| {
         let replaced = function.name.starts_with("llvm.") || libdevice::of_symbol(&function.name).is_some();
         !function.blocks.is_empty() || !replaced
@@ -84,7 +85,8 @@ fn function(function: &mut Function, called: &mut Called, own: &HashSet<String>,
     for instruction in function.blocks.iter_mut().flat_map(|block| &mut block.instructions) {
         let mut circle = false;
         instruction.op.values_mut(&mut |value| {
-            // A value may stand for one that stands for another. What is made of itself is no program.
+            // The replacement of a value may itself have been replaced. A value that is replaced by itself, over any
+            // number of steps, comes from no real program.
             let mut steps = 0;
             while let Value::Local(name) = value
                 && let Some(other) = renamed.get(name)
@@ -104,7 +106,7 @@ fn function(function: &mut Function, called: &mut Called, own: &HashSet<String>,
     Ok(())
 }
 
-/// Appends what the instruction becomes.
+/// Appends the instructions that this one becomes.
 fn lower(builder: &mut Builder<'_>, mut instruction: Instruction) -> Result<(), Unknown> {
     floats::avoid_halves(builder, &mut instruction.op);
     let value = match &instruction.op {

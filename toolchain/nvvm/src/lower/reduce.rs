@@ -1,4 +1,4 @@
-//! `llvm.vector.reduce.*`: all elements of a vector into one.
+//! `llvm.vector.reduce.*`, which combine all elements of a vector into one value.
 
 use super::builder::Builder;
 use super::{floats, integers};
@@ -7,7 +7,7 @@ use optix_llvm_ir::model::{Type, Typed};
 use optix_llvm_ir::opcode::{Binary, IntPredicate};
 
 pub(super) fn lower(builder: &mut Builder<'_>, op: &str, arguments: &[Typed]) -> Result<Typed, Unknown> {
-    // Sums and products of floats have a first value before the vector, and go from left to right.
+    // Sums and products of floats start with an extra value before the vector, and go from left to right.
     let (first, vector) = match arguments {
         [first, vector] if matches!(op, "fadd" | "fmul") => (Some(first.clone()), vector),
         [vector] => (None, vector),

@@ -1,18 +1,18 @@
-//! Stores side by side, such as those of a `Vec4`, become one store of a vector: LLVM's code generator joins them, libNVVM
-//! does not.
+//! Joins stores to neighbouring places, such as those of a `Vec4`, to one store of a vector. LLVM's own code generator
+//! does that, libNVVM does not.
 
 use std::collections::HashMap;
 
 use super::builder::FRESH;
 use optix_llvm_ir::model::{Block, Function, Instruction, Op, Type, Typed, Value};
 
-/// The widest access of the machine.
+/// The most bytes that the machine stores at once.
 const MOST_BYTES: u64 = 16;
 
-/// Where a store goes: an address and the bytes behind it.
+/// The place of a store: a base address, and the distance from it in bytes.
 type Place = (Value, i128);
 
-/// Joins the stores of each block that nothing comes between.
+/// Joins stores in each block, as long as no instruction between them prevents that.
 pub(super) fn join(function: &mut Function) {
     let places = places(function);
     let mut fresh = (0..).map(|number| format!("{FRESH}v{number}"));
@@ -24,7 +24,7 @@ pub(super) fn join(function: &mut Function) {
     }
 }
 
-/// What is named for a constant number of bytes behind something else.
+/// The values that are another value plus a constant number of bytes.
 fn places(function: &Function) -> HashMap<String, Place> {
     let instructions = function.blocks.iter().flat_map(|block| &block.instructions);
     let place = |instruction: &Instruction| match &instruction.op {
@@ -37,7 +37,8 @@ fn places(function: &Function) -> HashMap<String, Place> {
     instructions.filter_map(place).collect()
 }
 
-/// Stores that are one, by their numbers in the block; each run's first address is the lowest.
+/// Groups of stores that can become one, by their indices in the block. The first store of each group has the lowest
+/// address.
 fn runs(block: &Block, places: &HashMap<String, Place>) -> Vec<Vec<usize>> {
     let mut runs = Vec::new();
     let mut run: Vec<usize> = Vec::new();
@@ -69,7 +70,7 @@ fn runs(block: &Block, places: &HashMap<String, Place>) -> Vec<Vec<usize>> {
     runs
 }
 
-/// Cuts stores of neighbours into vectors that the machine stores, as far as they are known to be aligned.
+/// Divides stores of neighbours into vectors that the machine can store, as far as the alignment is known to allow.
 fn split(block: &Block, mut run: Vec<usize>, runs: &mut Vec<Vec<usize>>) {
     while let Some(first) = run.first() {
         let Op::Store { value, align, .. } = &block.instructions[*first].op else { return };
@@ -87,7 +88,7 @@ fn split(block: &Block, mut run: Vec<usize>, runs: &mut Vec<Vec<usize>>) {
     }
 }
 
-/// Puts a vector's store in the place of the last of the run.
+/// Puts the store of a vector in the place of the group's last store.
 fn replace(block: &mut Block, run: &[usize], fresh: &mut impl Iterator<Item = String>) {
     let (Some(&first), Some(&last)) = (run.first(), run.last()) else { return };
     let Op::Store { value, pointer, align, .. } = block.instructions[first].op.clone() else { return };
@@ -111,7 +112,7 @@ fn replace(block: &mut Block, run: &[usize], fresh: &mut impl Iterator<Item = St
     }
 }
 
-/// The bytes of a number that vectors are made of here; 0 for another type.
+/// The size of a type that vectors are made of here; 0 for other types.
 fn bytes(ty: &Type) -> u64 {
     match ty {
         Type::Int(32) | Type::Float => 4,
@@ -120,7 +121,7 @@ fn bytes(ty: &Type) -> u64 {
     }
 }
 
-/// Whether a store may be moved over it.
+/// Whether a store may be moved across this instruction.
 fn is_apart(op: &Op) -> bool {
     matches!(
         op,

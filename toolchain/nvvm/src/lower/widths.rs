@@ -1,18 +1,18 @@
-//! Integers that functions take and return: libNVVM passes those of 8, 16, 32, 64 and 128 bits, while rustc passes a struct of six
-//! bytes as `i48`.
+//! Widths of integers that functions take and return. libNVVM passes integers of 8, 16, 32, 64 and 128 bits only, while
+//! rustc passes, for example, a struct of six bytes as `i48`.
 
 use super::builder::FRESH;
 use optix_llvm_ir::model::{Callee, Function, Instruction, Op, Type, Typed, Value};
 use optix_llvm_ir::opcode::Cast;
 
-/// The type that stands for one that can't be passed.
+/// The type that replaces one that can't be passed.
 fn passed(ty: &Type) -> Option<Type> {
     let Type::Int(bits @ 2..=127) = ty else { return None };
     let wide = bits.next_power_of_two().max(8);
     (wide != *bits).then_some(Type::Int(wide))
 }
 
-/// Has the function, and what it calls, pass what can be passed.
+/// Changes the function, and the calls in it, so that they pass only what can be passed.
 pub(super) fn widen(function: &mut Function) {
     let mut fresh = (0..).map(|number| format!("{FRESH}w{number}"));
     let mut narrowed = Vec::new();
@@ -71,7 +71,7 @@ pub(super) fn widen(function: &mut Function) {
     }
 }
 
-/// Whether a function is called that others define or may define; intrinsics are what their names say.
+/// Whether the called function is or may be defined elsewhere. Intrinsics are not.
 fn is_function(callee: &Callee) -> bool {
     match callee {
         Callee::Function(Value::Global(name)) => !name.starts_with("llvm."),

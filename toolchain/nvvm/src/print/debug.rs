@@ -1,27 +1,28 @@
-//! Line information: as much of rustc's debug information as says where instructions come from.
+//! Line information: the part of rustc's debug information that tells where instructions come from.
 //!
-//! Everything stands in its file, and every function has one compile unit, of which libNVVM takes no more.
+//! Every function belongs to one compile unit, because libNVVM accepts only one.
 
 use std::collections::BTreeMap;
 
 use crate::Dialect;
 use optix_llvm_ir::model::{DebugNode, Module};
 
-/// How many numbers of nodes are its own.
+/// How many numbers of nodes are reserved for the nodes that are made here.
 pub(super) const NUMBERS: u64 = 4;
 
 /// The nodes to print, by name.
 pub(super) struct Debug<'m> {
     nodes: &'m BTreeMap<String, DebugNode>,
     dialect: Dialect,
-    /// The text of each node that was looked at; none if it, or what it refers to, is not as rustc writes it.
+    /// The text of each node that was visited. `None` if the node, or one that it refers to, is not as rustc writes it.
     printed: BTreeMap<&'m str, Option<String>>,
-    /// The compile unit's number; the next two are a type's, and that of what it is a list of.
+    /// The number of the compile unit. The next two are those of a type and of the list that the type has.
     unit: u64,
 }
 
 impl<'m> Debug<'m> {
-    /// Of what functions and instructions of the module refer to. Takes numbers from `number` on.
+    /// Collects the nodes that functions and instructions of the module refer to. New nodes get numbers from `number`
+    /// on.
     pub fn new(module: &'m Module, dialect: Dialect, number: u64) -> Self {
         let mut debug = Self { nodes: &module.debug, dialect, printed: BTreeMap::new(), unit: number };
         for function in module.functions.iter().filter(|function| !function.blocks.is_empty()) {
@@ -37,7 +38,7 @@ impl<'m> Debug<'m> {
         debug
     }
 
-    /// `, !dbg !5` with what comes before it, or nothing.
+    /// `, !dbg !5` with the given prefix, or nothing.
     pub fn attachment(&self, before: &str, node: Option<&str>) -> String {
         let number = node.map(|node| node.trim_start_matches('!'));
         match number.filter(|number| self.printed.get(number).is_some_and(Option::is_some)) {
@@ -46,11 +47,11 @@ impl<'m> Debug<'m> {
         }
     }
 
-    /// Whether the node can be printed; its text is kept.
+    /// Whether the node can be printed. Its text is stored.
     fn node(&mut self, name: &str) -> Option<()> {
         let (name, node) = self.nodes.get_key_value(name.trim_start_matches('!'))?;
         if !self.printed.contains_key(name.as_str()) {
-            // What refers to itself is not rustc's.
+            // rustc writes no node that refers to itself.
             self.printed.insert(name, None);
             let text = self.text(node);
             self.printed.insert(name, text);

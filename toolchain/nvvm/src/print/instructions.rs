@@ -1,4 +1,4 @@
-//! Instructions.
+//! Prints instructions.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use optix_llvm_ir::model::{Call, Callee, Op, Type, Typed, Value};
 use optix_llvm_ir::opcode::{Other, Predicate};
 
 impl Printer<'_> {
-    /// The instruction without its result's name; what has to come before it is said.
+    /// The text of an instruction without the name of its result. Lines that have to come before it are printed.
     pub(super) fn op(&mut self, op: &Op) -> Printed {
         Ok(match op {
             Op::Binary { op, flags, a, b } => {
@@ -125,7 +125,7 @@ impl Printer<'_> {
         Ok(self.without_pointee(text, &pointee, space))
     }
 
-    /// What makes a pointer without pointee of the instruction `text`, which makes one to `pointee`.
+    /// Text that converts the result of the instruction `text`, a pointer to `pointee`, to a pointer without pointee.
     fn without_pointee(&mut self, text: String, pointee: &Type, space: u32) -> String {
         if self.dialect == Dialect::Modern || *pointee == Type::Int(8) {
             return text;

@@ -1,4 +1,5 @@
-//! Metadata: which functions are kernels, the version of the format, loops, lines, and what instructions refer to.
+//! Prints metadata: which functions are kernels, the version of the format, loops, lines, and what instructions refer
+//! to.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +9,7 @@ use crate::Dialect;
 impl Printer<'_> {
     pub(super) fn metadata(&mut self) {
         let module = self.module;
-        // What hangs on instructions, and what that refers to.
+        // The nodes that are attached to instructions, and the nodes that those refer to.
         let instructions = module.functions.iter().flat_map(|f| &f.blocks).flat_map(|block| &block.instructions);
         let attached = instructions.flat_map(|instruction| &instruction.metadata);
         let mut waiting: Vec<&str> = attached
@@ -28,8 +29,8 @@ impl Printer<'_> {
         }
 
         let mut number = self.node + 1;
-        // rustc has unrolled what was worth it. More would copy device functions, and each call of `trace` is a place where
-        // OptiX cuts a program in two.
+        // rustc has unrolled the loops that were worth it. More unrolling would copy device functions, and OptiX cuts a
+        // program in two at each call of `trace`.
         if !self.loops.is_empty() {
             let mut nodes: Vec<u64> = self.loops.values().copied().collect();
             nodes.sort_unstable();

@@ -1,4 +1,4 @@
-//! A lowered [`Module`] as the text that libNVVM reads.
+//! Prints a lowered [`Module`] as the text that libNVVM reads.
 
 mod debug;
 mod instructions;
@@ -15,11 +15,11 @@ use debug::Debug;
 use optix_llvm_ir::Unknown;
 use optix_llvm_ir::model::{Argument, Function, Instruction, Module, Op, Variable};
 
-/// NVVM's data layout, which rustc's agrees with.
+/// NVVM's data layout. That of rustc agrees with it.
 const LAYOUT: &str = "e-p:64:64:64-i1:8:8-i8:8:8-i16:16:16-i32:32:32-i64:64:64-i128:128:128-f32:32:32-f64:64:64-v16:16:16-\
                       v32:32:32-v64:64:64-v128:128:128-n16:32:64";
 
-/// Prints the module; `text` is what it was read from.
+/// Prints the module. `text` is the text that it was read from.
 pub(super) fn module(module: &Module, dialect: Dialect, text: &str) -> Result<String, Refusal> {
     let numbers = module.metadata.keys().chain(module.debug.keys()).filter_map(|name| name.parse::<u64>().ok());
     let node = numbers.max().unwrap_or(0);
@@ -51,17 +51,17 @@ struct Printer<'m> {
     functions: HashMap<&'m str, &'m Function>,
     variables: HashMap<&'m str, &'m Variable>,
     out: String,
-    /// Of the names that are made here.
+    /// Counts the names that are made here.
     count: usize,
     /// The line of the source that is being printed.
     line: usize,
-    /// The number of metadata that was given last.
+    /// The last number that was given to a metadata node.
     node: u64,
-    /// The source of functions and instructions.
+    /// The line information of functions and instructions.
     debug: Debug<'m>,
-    /// The metadata of each loop, by function and first block.
+    /// The metadata of each loop, by the function and the loop's first block.
     loops: HashMap<(&'m str, &'m str), u64>,
-    /// The blocks of the function so far.
+    /// The blocks of the function that have been printed.
     before: HashSet<&'m str>,
 }
 
@@ -73,7 +73,7 @@ impl<'m> Printer<'m> {
         let _ = writeln!(self.out, "{line}");
     }
 
-    /// A name of our own.
+    /// A new name.
     fn fresh(&mut self) -> String {
         self.count += 1;
         format!("%p.{}", self.count)
@@ -182,7 +182,7 @@ impl<'m> Printer<'m> {
 
     /// Attributes of a parameter, with a space before each.
     fn value_attributes(&self, argument: &Argument) -> String {
-        // LLVM 7 does not know the one, modern LLVM not the other.
+        // LLVM 7 does not know the first of these, modern LLVM not the second.
         let unknown = match self.dialect {
             Dialect::Llvm7 => "noundef",
             Dialect::Modern => "nocapture",

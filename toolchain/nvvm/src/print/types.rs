@@ -1,4 +1,4 @@
-//! Types. LLVM 7 has no pointer without a pointee: there it is one to a byte.
+//! Prints types. LLVM 7 has no pointer without a pointee, so it becomes a pointer to a byte.
 
 use super::{Printed, Printer};
 use crate::Dialect;
@@ -57,7 +57,8 @@ impl Printer<'_> {
         }
     }
 
-    /// What an address points to: `of` itself, then a part of it for each index but the first.
+    /// The types that an address computation passes through: `of` itself, then a part of it for each index after the
+    /// first.
     pub(super) fn pointee(&self, of: &Type, indices: &[Typed]) -> Printed<Type> {
         let mut ty = of.clone();
         for index in indices.iter().skip(1) {
@@ -76,7 +77,7 @@ impl Printer<'_> {
     }
 }
 
-/// `%name` of a type.
+/// The name of a type, `%name`.
 pub(super) fn named(name: &str) -> String {
     format!("%\"type.{name}\"")
 }

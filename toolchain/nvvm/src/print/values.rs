@@ -1,4 +1,4 @@
-//! Names and constants.
+//! Prints names and constants.
 
 use super::{Printed, Printer};
 use crate::Dialect;
@@ -20,7 +20,7 @@ impl Printer<'_> {
         }
     }
 
-    /// A value without its type, which is `ty`.
+    /// The text of a value of the type `ty`, without the type.
     pub(super) fn value(&self, ty: &Type, value: &Value) -> Printed {
         Ok(match value {
             Value::Local(name) => local(name),
@@ -103,7 +103,7 @@ impl Printer<'_> {
         Ok(format!("{to} bitcast ({} to {to})", self.typed(pointer)?))
     }
 
-    /// The name of a function or variable. An intrinsic's says what it points to.
+    /// The name of a function or variable. The name of an intrinsic contains the types of what its pointers point to.
     pub(super) fn function_name(&self, name: &str) -> String {
         if self.dialect == Dialect::Llvm7 && name.starts_with("llvm.mem") {
             let parts = name.split('.').map(|part| match part.strip_prefix('p') {
@@ -116,7 +116,7 @@ impl Printer<'_> {
     }
 }
 
-/// The name of a local value or a block. Those of the source and those that are made here can't be the same.
+/// The name of a local value or a block. Names of the source and names that are made here never coincide.
 pub(super) fn local(name: &str) -> String {
     match name.strip_prefix(FRESH) {
         Some(number) => format!("%t.{number}"),
