@@ -1,5 +1,5 @@
-//! Acceleration structures that programs read without a hit: the instances of an IAS and the triangles of a GAS, by number
-//! (guide 13.9, 13.12). Any kind of program may.
+//! Acceleration structures that programs read without a hit: the instances of an IAS, by number (guide 13.12). Any kind of
+//! program may. What a GAS is made of is read likewise: see [`TriangleVertices`](crate::primitive::TriangleVertices).
 //!
 //! Both are fields of launch parameters and records, and travel in payloads. On the host a structure that is built for it
 //! gives their owners: `scene.ias(..).build_with_instances()`, `scene.gas(..).build_with_triangles()`.
@@ -24,9 +24,8 @@ use crate::data::DeviceData;
 use crate::layout::Layout;
 use crate::machine::check;
 use crate::program::{Context, Here, InstanceHandle};
-use crate::view::{OfLaunch, Slice};
+use crate::view::OfLaunch;
 use crate::words::{FromRaw, words_of_raw};
-use glam::Vec3;
 
 /// The instances of an IAS, in the order in which the application gave them.
 ///
@@ -39,17 +38,6 @@ pub struct Instances {
     of: OfLaunch,
 }
 
-/// The triangles of a GAS.
-///
-/// On the host it is a [`TriangleTable`](crate::host::TriangleTable).
-#[derive(Clone, Copy)]
-#[repr(C)]
-pub struct TriangleVertices {
-    gas: u64,
-    /// Per record of the GAS: triangles in its build input.
-    counts: Slice<u32>,
-}
-
 /// # Safety
 /// The handle is of an IAS with so many instances, built with random instance access on the machine that launches, and stays
 /// alive while programs may use the view.
@@ -58,17 +46,6 @@ impl FromRaw for Instances {
     #[inline(always)]
     unsafe fn from_raw([ias, len]: [u64; 2]) -> Self {
         Self { ias, len, of: OfLaunch::NEW }
-    }
-}
-
-/// # Safety
-/// The handle is of a GAS of triangles, built with random vertex access on the machine that launches, and stays alive while
-/// programs may use the view; it has as many records as `counts`, each of a build input with so many triangles.
-impl FromRaw for TriangleVertices {
-    type Raw = (u64, Slice<u32>);
-    #[inline(always)]
-    unsafe fn from_raw((gas, counts): (u64, Slice<u32>)) -> Self {
-        Self { gas, counts }
     }
 }
 
@@ -98,69 +75,22 @@ impl Instances {
     }
 }
 
-impl TriangleVertices {
-    #[doc(hidden)]
-    pub const fn to_raw(self) -> [u64; 3] {
-        let [address, len] = self.counts.to_raw();
-        [self.gas, address, len]
-    }
-
-    /// How many records the GAS has: one for each material of each geometry, in order.
-    #[inline(always)]
-    pub const fn records(self) -> u32 {
-        self.counts.len() as u32
-    }
-
-    /// How many triangles the geometry of a record has. A record out of range ends the program.
-    #[inline(always)]
-    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
-    pub fn triangles(self, sbt_gas_index: u32) -> u32 {
-        self.counts.get(sbt_gas_index)
-    }
-
-    /// The vertices of a triangle, in object space: triangle `primitive_index` of the geometry that has the record
-    /// `sbt_gas_index`; the two as a hit's context gives them. `context` is that of the running program
-    /// (`optixGetTriangleVertexDataFromHandle`). For a triangle without area, which no ray meets, NaN or its vertices: the CPU
-    /// says NaN, and a driver may. An index out of range ends the program.
-    #[inline(always)]
-    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
-    pub fn get<C: Context>(self, context: &C, sbt_gas_index: u32, primitive_index: u32) -> [Vec3; 3] {
-        let count = self.triangles(sbt_gas_index);
-        let message = format_args!("triangle {primitive_index} is out of range: record {sbt_gas_index} has {count}");
-        check(primitive_index, count, message);
-        // SAFETY: the structure has such a triangle, and was built for this (`from_raw`).
-        unsafe { context.machine(Here(())).triangle_vertices_from_handle(self.gas, primitive_index, sbt_gas_index) }
-    }
-}
-
 words_of_raw! {
     [] Instances: [u64; 2], |raw| Self::from_raw(raw);
-    [] TriangleVertices: [u64; 3], |raw| Self::from_raw((raw[0], Slice::from_raw([raw[1], raw[2]])));
 }
 
-macro_rules! device_data {
-    ($($name:ident)*) => {$(
-        // SAFETY: `#[repr(C)]` integers of 64 bits, the same on both machines.
-        unsafe impl DeviceData for $name {
-            const LAYOUT: Layout = Layout::of(stringify!($name));
-            #[inline]
-            fn write_to(&self, bytes: &mut [u8]) {
-                self.to_raw().write_to(bytes);
-            }
-            const UNIT: usize = u64::UNIT;
-        }
-    )*};
+// SAFETY: `#[repr(C)]` integers of 64 bits, the same on both machines.
+unsafe impl DeviceData for Instances {
+    const LAYOUT: Layout = Layout::of("Instances");
+    #[inline]
+    fn write_to(&self, bytes: &mut [u8]) {
+        self.to_raw().write_to(bytes);
+    }
+    const UNIT: usize = u64::UNIT;
 }
-device_data!(Instances TriangleVertices);
 
 impl core::fmt::Debug for Instances {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         write!(f, "Instances({})", self.len)
-    }
-}
-
-impl core::fmt::Debug for TriangleVertices {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "TriangleVertices({} records)", self.records())
     }
 }

@@ -2,9 +2,9 @@
 //!
 //! Not for users; the macros refer to these by path.
 
-use crate::attributes::{Attributes, Reported, Triangles};
 use crate::payload::{Part, Payload};
-use crate::program::{AccelHandle, Face, HitKind, InstanceHandle, PrimitiveType, Transform, TransformHandle};
+use crate::primitive::{Attributes, Primitive, PrimitiveType, Reported};
+use crate::program::{AccelHandle, Face, HitKind, InstanceHandle, Transform, TransformHandle};
 use crate::ray::{Ray, RayFlags, Traversable};
 use crate::spawn::SurfacePoint;
 use core::fmt::Debug;
@@ -462,20 +462,7 @@ macro_rules! not_named_by_brackets {
 }
 not_named_by_brackets!(Slice, SliceMut, SliceMut2d);
 
-/// Hits on triangles.
-///
-/// # Safety
-/// As the name says: other hits have no triangle to ask about.
-#[diagnostic::on_unimplemented(
-    message = "hits that carry `{Self}` are not hits on triangles",
-    label = "only hits on triangles have barycentrics, a face, vertices and a surface point (guide 13.4, 13.9)",
-    note = "read what the intersection program reported: `hit.attributes()`; in a program for any kind of hit, ask for `Triangles` in its context"
-)]
-pub unsafe trait OnTriangles {}
-// SAFETY: the attributes of the built-in intersection.
-unsafe impl OnTriangles for Triangles {}
-
-/// What a program with a mistake in it reports.
+/// What a program with a mistake in it reports, and what a hit group without an intersection program does.
 #[derive(Clone, Copy)]
 pub enum NoHits {}
 impl Attributes for NoHits {
@@ -505,6 +492,39 @@ unsafe impl Reported for NoHits {}
 pub unsafe trait SameHits<Other> {}
 // SAFETY: one type.
 unsafe impl<T> SameHits<T> for T {}
+
+/// A program of a hit group says where rays meet its primitives if they are custom ones, and none does if they are built-in:
+/// whether there is one for a ray type is `given`. The names are as `pipeline!` has them.
+#[track_caller]
+pub const fn intersection_program<G: Primitive>(given: bool, record: &str, geometry: &str, ray: &str) {
+    if given == G::HAS_INTERSECTION_PROGRAM {
+        return;
+    }
+    let text = EMPTY;
+    let text = if given {
+        text.push("`")
+            .push(record)
+            .push(" on ")
+            .push(geometry)
+            .push("` can't have an intersection program: OptiX itself finds where rays meet these primitives; remove it, or write `")
+            .push(record)
+            .push(" on Custom`")
+    } else {
+        text.push("hit group `")
+            .push(record)
+            .push(" on ")
+            .push(geometry)
+            .push("` has no intersection program for ray type `")
+            .push(ray)
+            .push("`, so `")
+            .push(ray)
+            .push("` rays could not see it: add `intersection: ..`")
+    };
+    panic!("{}", text.as_str());
+}
+
+/// A program that fits every place of a pipeline: what stands for one with a mistake that has its own message.
+pub type FitsEverywhere = [(); 0];
 
 /// Two attribute types are one.
 pub const fn same_hits<A: SameHits<B>, B>() {}

@@ -108,7 +108,7 @@ impl Crossing {
     }
 
     /// Of what hits carry.
-    pub const fn attributes<A: crate::attributes::Attributes>() -> Self {
+    pub const fn attributes<A: crate::primitive::Attributes>() -> Self {
         Self::new("attributes", A::NAME, A::WORDS, A::LAYOUT)
     }
 

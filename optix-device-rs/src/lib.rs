@@ -61,7 +61,6 @@
 extern crate std;
 
 pub mod accel;
-pub mod attributes;
 pub mod callable;
 #[doc(hidden)]
 pub mod check;
@@ -78,6 +77,7 @@ pub mod params;
 pub mod payload;
 pub mod pipeline;
 pub mod prelude;
+pub mod primitive;
 pub mod program;
 pub mod ray;
 pub mod record;

@@ -1,11 +1,11 @@
 //! A pipeline as a type: what `pipeline!` declares, and what host and device read from it.
 
-use crate::attributes::Geometry;
 use crate::callable::{CallableKind, Signature};
 use crate::exception::UserException;
 use crate::layout::Crossing;
 use crate::params::LaunchParams;
 use crate::payload::Payload;
+use crate::primitive::Primitive;
 use crate::record::SbtRecord;
 
 /// A pipeline: launch parameters, ray types, hit groups and programs under one name. Made by `pipeline!`.
@@ -65,7 +65,7 @@ pub unsafe trait HasRay<R: Payload>: Pipeline {
     message = "pipeline `{Self}` has no hit group for material `{Rec}` on `{G}`",
     label = "`{Rec} on {G}` is not among the `hitgroups` of `{Self}`"
 )]
-pub unsafe trait HasHitGroup<Rec: SbtRecord, G: Geometry>: Pipeline {
+pub unsafe trait HasHitGroup<Rec: SbtRecord, G: Primitive>: Pipeline {
     /// The hit group's number in the pipeline's description.
     const INDEX: u32;
 }

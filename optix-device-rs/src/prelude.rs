@@ -1,7 +1,6 @@
 //! What a shader crate uses: `use optix_device_rs::prelude::*;`.
 
-pub use crate::accel::{Instances, TriangleVertices};
-pub use crate::attributes::{Attributes, Custom, Triangles};
+pub use crate::accel::Instances;
 pub use crate::callable::{Callable, Callables, Continuation, Direct};
 pub use crate::data::DeviceData;
 pub use crate::exception::{Raised, UserException};
@@ -11,9 +10,10 @@ pub use crate::math::{Math, Onb};
 pub use crate::params::LaunchParams;
 pub use crate::payload::Payload;
 pub use crate::pipeline::{HasHitGroup, HasRay, Pipeline, Throws};
+pub use crate::primitive::{Attributes, Custom, OnTriangles, PrimitiveType, TriangleVertices, Triangles};
 pub use crate::program::{
     AnyHit, CallsContinuation, CallsDirect, ClosestHit, Context, ContinuationCallable, DirectCallable, Exception, Face,
-    HitKind, InstanceHandle, Intersection, Miss, PrimitiveType, RayGen, Transform, TransformHandle,
+    HitKind, InstanceHandle, Intersection, Miss, RayGen, Transform, TransformHandle,
 };
 pub use crate::ray::{AnyHitMode, CullFaces, Decision, Ray, RayFlags, Traversable};
 pub use crate::record::SbtRecord;

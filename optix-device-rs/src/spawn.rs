@@ -1,13 +1,11 @@
 //! Hit points with an error bound, so that rays that start there don't hit the surface they left.
 
-#[cfg(target_arch = "nvptx64")]
-use crate::math::Math;
 use crate::program::Transform;
 use crate::ray::Ray;
 use glam::Vec3;
 
 /// Unit roundoff of `f32`.
-const U: f32 = 1.0 / 16_777_216.0;
+pub(crate) const U: f32 = 1.0 / 16_777_216.0;
 
 /// `n * u / (1 - n * u)`: the relative error of `n` roundings (Higham 2002, section 3.1), rounded up. From `2^24` roundings on
 /// nothing is known, and it is infinite.
@@ -21,7 +19,7 @@ pub const fn gamma(n: u32) -> f32 {
 
 /// Absolute error per object-space axis that denormal numbers can add: far above the few units of `2^-149` that it takes, far
 /// below what scenes are made of.
-const TINY: f32 = f32::MIN_POSITIVE * 16.0;
+pub(crate) const TINY: f32 = f32::MIN_POSITIVE * 16.0;
 
 /// A point on a surface in world space, with its geometric normal and a bound of its error along that normal.
 ///
@@ -99,26 +97,6 @@ impl SurfacePoint {
         Self { position, normal, error, error_per_length: 3.0 * gamma(20) }
     }
 
-    /// The point at `barycentrics` of a triangle given in object space; see the type for the bound.
-    #[inline(always)]
-    pub fn of_triangle(
-        [p0, p1, p2]: [Vec3; 3],
-        barycentrics: glam::Vec2,
-        object_to_world: &Transform,
-        world_to_object: &Transform,
-    ) -> Self {
-        let (e1, e2) = (p1 - p0, p2 - p0);
-        let extents = larger(larger(e1.abs(), e2.abs()), (e1 - e2).abs());
-        let extent = extents.x.max(extents.y).max(extents.z);
-        let object = p0 + (e1 * barycentrics.x + e2 * barycentrics.y);
-        // By a power of two, which is exact, so that no product over- or underflows.
-        let scale = reciprocal_power(extent);
-        let normal = cross(e1 * scale, e2 * scale).normalize();
-
-        let error = extents * gamma(22) + object.abs() * (2.0 * U) + (extent * gamma(4) + TINY);
-        Self::of_object(object, normal, error, object_to_world, world_to_object)
-    }
-
     /// A point given in object space with unit normal `normal`: for custom primitives in instances.
     ///
     /// `error` bounds, on each object-space axis, what the intersection program sees of the surface near `point`: how far
@@ -184,39 +162,4 @@ impl SurfacePoint {
     fn moved(&self, direction: Vec3, distance: f32) -> Vec3 {
         self.position + self.normal * distance.copysign(self.normal.dot(direction))
     }
-}
-
-/// The larger of each element, in one instruction each.
-#[inline(always)]
-fn larger(a: Vec3, b: Vec3) -> Vec3 {
-    Vec3::new(a.x.max(b.x), a.y.max(b.y), a.z.max(b.z))
-}
-
-/// A power of two from the exponent alone: `2^-e` for `length` from `2^e` to `2^(e+1)`.
-#[inline(always)]
-fn reciprocal_power(length: f32) -> f32 {
-    let exponent = length.to_bits() & 0x7f80_0000;
-    f32::from_bits(0x7f00_0000u32.saturating_sub(exponent).max(0x0080_0000))
-}
-
-/// The cross product, each element good to 2 u.
-#[inline(always)]
-fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    let difference = difference_of_products;
-    Vec3::new(difference(a.y, b.z, a.z, b.y), difference(a.z, b.x, a.x, b.z), difference(a.x, b.y, a.y, b.x))
-}
-
-/// `a b - c d`, by Kahan's algorithm.
-#[cfg(target_arch = "nvptx64")]
-#[inline(always)]
-fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
-    let cd = c * d;
-    a.mul_add(b, -cd) + (-c).mul_add(d, cd)
-}
-
-/// `a b - c d`, by products that are exact in `f64`: processors have that at hand, but not always a fused multiply-add.
-#[cfg(not(target_arch = "nvptx64"))]
-#[inline(always)]
-fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
-    (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32
 }

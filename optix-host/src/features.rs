@@ -2,7 +2,7 @@
 //! pipelines are specialised to it.
 
 use crate::geometry::BuildInputs;
-use optix_device_rs::host::GeometryKind;
+use optix_device_rs::host::PrimitiveType;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Features {
     /// Kinds of primitives, in order of first use.
-    pub primitives: Vec<GeometryKind>,
+    pub primitives: Vec<PrimitiveType>,
     /// Whether any geometry has more than one motion key.
     pub motion: bool,
     /// The most levels of instances over a GAS, of all structures that were built.

@@ -92,9 +92,9 @@ pub fn derive_attributes(input: &DeriveInput) -> TokenStream {
             #check
             // SAFETY: the traits of built-in primitives are for types of the device crate.
             #[automatically_derived]
-            unsafe impl #krate::attributes::Reported for #ident {}
+            unsafe impl #krate::primitive::Reported for #ident {}
             #[automatically_derived]
-            impl #krate::attributes::Attributes for #ident {
+            impl #krate::primitive::Attributes for #ident {
                 const NAME: &'static __core::primitive::str = #name;
                 const WORDS: __core::primitive::usize = __END;
                 const LAYOUT: #krate::layout::Layout = #layout;

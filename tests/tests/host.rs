@@ -35,7 +35,7 @@ fn bad_geometry_is_named() {
     says(scene.geometry(TriangleMesh::new(&broken)), &["vertex 1", "NaN"]);
     let inverted = Aabb { min: Vec3::ONE, max: Vec3::ZERO };
     says(scene.geometry(CustomPrimitives::new(&[inverted])), &["box 0", "min <= max"]);
-    says(scene.gas::<optix_device_rs::attributes::Triangles>([]).build(), &["at least one geometry"]);
+    says(scene.gas::<optix_device_rs::primitive::Triangles>([]).build(), &["at least one geometry"]);
     let (paint, triangle) =
         (scene.material(Surface {}).unwrap(), scene.geometry(TriangleMesh::new(&TRIANGLE)).unwrap());
     let [good, long, high] = [vec![0], vec![0, 0], vec![1]].map(|which| triangle.with_each(&[paint], which));

@@ -1,9 +1,9 @@
 //! A pipeline as a value: what `pipeline!` declares, for backends to read.
 
 use super::Frame;
-use crate::attributes::GeometryKind;
 use crate::layout::Crossing;
 use crate::params::Field;
+use crate::primitive::PrimitiveType;
 use crate::ray::Decision;
 use core::any::TypeId;
 
@@ -162,7 +162,7 @@ pub struct HitGroupDescription {
     /// The material's record.
     pub record: RecordLayout,
     /// The kind of geometry.
-    pub geometry: GeometryKind,
+    pub geometry: PrimitiveType,
     /// Attribute words of its hits.
     pub attribute_words: usize,
     /// Per ray type, in the order of [`PipelineDescription::rays`].

@@ -266,7 +266,7 @@ impl InstanceTable {
     }
 }
 
-/// The triangles of a GAS: the host twin of [`TriangleVertices`](crate::accel::TriangleVertices). A clone is of the same
+/// The triangles of a GAS: the host twin of [`TriangleVertices`](crate::primitive::TriangleVertices). A clone is of the same
 /// structure.
 #[derive(Clone, Debug)]
 pub struct TriangleTable {

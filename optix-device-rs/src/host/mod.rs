@@ -11,8 +11,8 @@ mod rule;
 pub mod shared;
 mod twin;
 
-pub use crate::attributes::GeometryKind;
 pub use crate::machine::TraceCall;
+pub use crate::primitive::PrimitiveType;
 pub use callable::{CallableRecord, CallableTable};
 pub use description::{
     CallableDescription, Entry, ExceptionsDescription, HitGroupDescription, HitPrograms, ParamsDescription,

@@ -1,8 +1,9 @@
 //! Host twins: structs in which owning buffers stand in the place of device views.
 
 use super::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, TriangleTable, World};
-use crate::accel::{Instances, TriangleVertices};
+use crate::accel::Instances;
 use crate::data::DeviceData;
+use crate::primitive::TriangleVertices;
 use crate::ray::Traversable;
 use crate::view::{Element, Slice, SliceMut, SliceMut2d};
 use crate::words::FromRaw;

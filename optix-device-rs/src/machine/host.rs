@@ -7,6 +7,7 @@ use crate::host::end;
 use crate::host::{CallableCall, ExceptionState, Frame, Rule, name_of};
 use crate::limits::MAX_PAYLOAD_WORDS;
 use crate::params::LaunchParams;
+use crate::primitive::PrimitiveType;
 use crate::program::Transform;
 use crate::words::{WordBuffer, Words, part, part_mut};
 use core::any::TypeId;
@@ -119,10 +120,10 @@ pub fn wide(low: u32, high: u32) -> u64 {
     u64::from(low) | u64::from(high) << 32
 }
 
-/// `OptixPrimitiveType` of a hit kind.
+/// The kind of primitive that a hit kind is of.
 #[inline(always)]
-pub fn primitive_type_of(kind: u8) -> u32 {
-    if kind < 128 { 0x2500 } else { 0x2531 }
+pub fn primitive_type_of(kind: u8) -> PrimitiveType {
+    PrimitiveType::of_hit_kind(kind).unwrap_or(PrimitiveType::Custom)
 }
 
 /// Whether a hit kind says that the back of a built-in primitive was hit.

@@ -1,12 +1,9 @@
 //! What programs may ask about the primitive, the hit and the transforms (guide 13.4, 13.7, 13.9, 13.11).
 
-use super::{
-    AccelHandle, AnyHit, Attributes, ClosestHit, Face, HitKind, Intersection, PrimitiveType, Transform, TransformHandle,
-};
-use crate::check::OnTriangles;
-use crate::spawn::SurfacePoint;
+use super::{AccelHandle, AnyHit, ClosestHit, HitKind, Intersection, Transform, TransformHandle};
+use crate::primitive::{Attributes, PrimitiveType};
 use crate::words::part;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
 macro_rules! primitive_queries {
     ($($name:ident),*) => {$(
@@ -138,50 +135,6 @@ macro_rules! hit_queries {
                 self.hit_kind().primitive_type()
             }
         }
-
-        // Of hits on triangles. The bound is on the methods, not the impl: so its message is shown.
-        impl<P, A> $name<P, A> {
-            /// Weights of the second and third vertex (guide 13.4).
-            #[inline(always)]
-            pub fn barycentrics(&self) -> Vec2
-            where
-                A: OnTriangles,
-            {
-                self.cx.barycentrics()
-            }
-            /// Which side was hit (`optixIsFrontFaceHit`, `optixIsBackFaceHit`); an instance may flip it.
-            #[inline(always)]
-            pub fn face(&self) -> Face
-            where
-                A: OnTriangles,
-            {
-                self.hit_kind().side()
-            }
-            /// The triangle's vertices in object space (guide 13.9).
-            #[inline(always)]
-            pub fn vertices(&self) -> [Vec3; 3]
-            where
-                A: OnTriangles,
-            {
-                self.cx.triangle_vertices()
-            }
-        }
     )*};
 }
 hit_queries!(AnyHit, ClosestHit);
-
-impl<P, A> ClosestHit<P, A> {
-    /// The hit point in world space with its normal and error bound, to shade and to spawn rays from.
-    #[inline(always)]
-    pub fn surface_point(&self) -> SurfacePoint
-    where
-        A: OnTriangles,
-    {
-        SurfacePoint::of_triangle(
-            self.vertices(),
-            self.barycentrics(),
-            &self.object_to_world(),
-            &self.world_to_object(),
-        )
-    }
-}

@@ -1,6 +1,7 @@
 //! Hit kinds, and what any program may learn from one (guide 13.7).
 
 use crate::machine;
+use crate::primitive::PrimitiveType;
 use crate::words::Words;
 
 /// What was hit: 0 to 127 is what an intersection program reported, the others are of built-in primitives (guide 13.7).
@@ -19,16 +20,6 @@ use crate::words::Words;
 #[repr(transparent)]
 pub struct HitKind(u8);
 
-/// The kinds of primitive that a hit can be on (`OptixPrimitiveType`).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum PrimitiveType {
-    /// A primitive with an intersection program of the user's.
-    Custom,
-    /// A built-in triangle.
-    Triangle,
-}
-
 /// Which side of a triangle a ray came to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Face {
@@ -39,18 +30,18 @@ pub enum Face {
 }
 
 impl HitKind {
-    /// The front of a built-in triangle.
-    pub const TRIANGLE_FRONT_FACE: Self = Self(254);
-    /// The back of a built-in triangle.
-    pub const TRIANGLE_BACK_FACE: Self = Self(255);
-
     /// A kind by its number; none if no hit can have it.
     #[inline(always)]
     pub const fn new(kind: u8) -> Option<Self> {
-        match kind {
-            0..=127 | 254 | 255 => Some(Self(kind)),
-            _ => None,
+        match PrimitiveType::of_hit_kind(kind) {
+            Some(_) => Some(Self(kind)),
+            None => None,
         }
+    }
+
+    /// For kinds of primitive, which have names for their hit kinds.
+    pub(crate) const fn of_number(kind: u8) -> Self {
+        Self(kind)
     }
 
     #[inline(always)]
@@ -67,17 +58,7 @@ impl HitKind {
     /// The kind of primitive (`optixGetPrimitiveType`).
     #[inline(always)]
     pub fn primitive_type(self) -> PrimitiveType {
-        match machine::primitive_type_of(self.0) {
-            // OPTIX_PRIMITIVE_TYPE_TRIANGLE
-            0x2531 => PrimitiveType::Triangle,
-            _ => PrimitiveType::Custom,
-        }
-    }
-
-    /// Whether it is a triangle's (`optixIsTriangleHit`).
-    #[inline(always)]
-    pub fn is_triangle(self) -> bool {
-        self.0 >= Self::TRIANGLE_FRONT_FACE.0
+        machine::primitive_type_of(self.0)
     }
 
     /// Which side was hit (`optixIsFrontFaceHit`, `optixIsBackFaceHit`); none for a custom primitive, which has no sides

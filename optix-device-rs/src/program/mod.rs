@@ -30,16 +30,16 @@ mod transform;
 mod unmarked;
 
 pub use handle::{AccelHandle, InstanceHandle, TransformHandle, TransformType};
-pub use kind::{Face, HitKind, PrimitiveType};
+pub use kind::{Face, HitKind};
 pub use transform::Transform;
 
-use crate::attributes::{Attributes, Reported};
 use crate::callable::Signature;
 use crate::data::DeviceData;
 use crate::machine::Cx;
 use crate::params::LaunchParams;
 use crate::payload::Payload;
 use crate::pipeline::Pipeline;
+use crate::primitive::{Attributes, Reported};
 use crate::ray::{Decision, RayFlags};
 use crate::record::SbtRecord;
 use crate::words::{WordBuffer, part_mut};
@@ -50,7 +50,7 @@ macro_rules! context {
     ($(#[$doc:meta])* $name:ident<P $(, $a:ident)?>) => {
         $(#[$doc])*
         pub struct $name<P $(, $a)?> {
-            cx: Cx,
+            pub(crate) cx: Cx,
             types: PhantomData<(P, $($a)?)>,
         }
 

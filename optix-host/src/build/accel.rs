@@ -4,9 +4,9 @@ use super::Scene;
 use crate::Result;
 use crate::geometry::GasPrimitive;
 use crate::scene::{Accel, GasMember, Instance, SceneError};
-use optix_device_rs::attributes::Triangles;
 use optix_device_rs::host::{InstanceTable, TriangleTable};
 use optix_device_rs::pipeline::Pipeline;
+use optix_device_rs::primitive::Triangles;
 
 /// Gathers what a GAS is built of.
 pub struct GasBuilder<'s, P, G: GasPrimitive> {

@@ -3,7 +3,7 @@
 use super::{GeometryError, IntoGeometry, PrimitiveArray};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use optix_device_rs::attributes::Custom;
+use optix_device_rs::primitive::Custom;
 
 /// An axis-aligned box in object space, laid out as `OptixAabb`.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

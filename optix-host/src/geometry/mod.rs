@@ -16,7 +16,7 @@ pub use records::{GeometryFlags, Records};
 pub use triangles::{TriangleArray, TriangleMesh};
 
 use crate::error::BuildError;
-use optix_device_rs::attributes::{Custom, Geometry, GeometryKind, Triangles};
+use optix_device_rs::primitive::{Custom, Primitive, PrimitiveType, Triangles};
 
 /// A checked array of primitives of one kind. Read-only: what was checked stays as it was.
 pub trait PrimitiveArray: Send + Sync + 'static {
@@ -38,7 +38,7 @@ pub trait PrimitiveArray: Send + Sync + 'static {
 }
 
 /// A kind of primitive that GASes are built of: what a device program calls it, with the array that a host gives.
-pub trait GasPrimitive: Geometry {
+pub trait GasPrimitive: Primitive {
     /// Checked primitives of this kind.
     type Array: PrimitiveArray;
 
@@ -94,10 +94,10 @@ impl From<Vec<BuildInput<CustomPrimitiveArray>>> for BuildInputs {
 
 impl BuildInputs {
     /// Which kind it is.
-    pub fn kind(&self) -> GeometryKind {
+    pub fn kind(&self) -> PrimitiveType {
         match self {
-            Self::Triangles(_) => Triangles::KIND,
-            Self::Custom(_) => Custom::KIND,
+            Self::Triangles(_) => Triangles::TYPE,
+            Self::Custom(_) => Custom::TYPE,
         }
     }
 

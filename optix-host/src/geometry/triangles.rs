@@ -2,7 +2,7 @@
 
 use super::{GeometryError, IntoGeometry, PrimitiveArray};
 use glam::Vec3;
-use optix_device_rs::attributes::Triangles;
+use optix_device_rs::primitive::Triangles;
 
 /// Triangles to be: positions in object space, and three indices per triangle or none.
 ///

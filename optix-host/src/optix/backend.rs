@@ -13,7 +13,7 @@ use crate::plan::{Graph, Plan};
 use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
 use crate::scene::{BuiltAccel, GasInput, IasInput, SceneError};
 use crate::{Error, Result};
-use optix_device_rs::host::{self as device, DeviceId, GeometryKind, Kept, Memory, MemoryError};
+use optix_device_rs::host::{self as device, DeviceId, Kept, Memory, MemoryError, PrimitiveType};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -282,8 +282,8 @@ impl Groups<'_> {
 fn pipeline_options(plan: &Plan) -> PipelineOptions {
     let primitives = plan.primitives.iter().fold(PrimitiveKinds::default(), |all, kind| {
         all.with(match kind {
-            GeometryKind::Triangles => PrimitiveKinds::TRIANGLE,
-            GeometryKind::Custom => PrimitiveKinds::CUSTOM,
+            PrimitiveType::Triangle => PrimitiveKinds::TRIANGLE,
+            PrimitiveType::Custom => PrimitiveKinds::CUSTOM,
         })
     });
     PipelineOptions {

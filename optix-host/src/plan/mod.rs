@@ -19,7 +19,7 @@ use crate::error::ReferenceError;
 use crate::features::Features;
 use explain::Notes;
 use layouts::check_layouts;
-use optix_device_rs::host::{GeometryKind, HitGroupDescription, PipelineDescription};
+use optix_device_rs::host::{HitGroupDescription, PipelineDescription, PrimitiveType};
 use optix_ptx::Module;
 use programs::{reached_programs, without_entries};
 
@@ -27,7 +27,7 @@ use programs::{reached_programs, without_entries};
 #[derive(Debug)]
 pub(crate) struct Plan {
     pub description: PipelineDescription,
-    pub primitives: Vec<GeometryKind>,
+    pub primitives: Vec<PrimitiveType>,
     pub motion: bool,
     pub graph: Graph,
     /// Levels of the graph, the GAS included.

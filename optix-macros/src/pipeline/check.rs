@@ -1,6 +1,6 @@
 //! What must hold of a pipeline before types come into it.
 
-use super::parse::{Geometry, Pipeline};
+use super::parse::Pipeline;
 use crate::limits::{MAX_CALLABLE_DEPTH, MAX_PAYLOAD_TYPES, MAX_TRACE_DEPTH};
 use crate::support::Errors;
 use quote::ToTokens;
@@ -85,8 +85,9 @@ fn rays(pipeline: &Pipeline, errors: &mut Errors) {
 
 fn groups(pipeline: &Pipeline, errors: &mut Errors) {
     for (i, group) in pipeline.groups.iter().enumerate() {
-        let (record, geometry) = (path(&group.record), group.geometry.name());
-        let twice = |g: &super::parse::Group| g.geometry == group.geometry && text(&g.record) == text(&group.record);
+        let (record, geometry) = (path(&group.record), &group.geometry);
+        let names = |g: &super::parse::Group| [text(&g.record), text(&g.geometry)];
+        let twice = |g: &super::parse::Group| names(g) == names(group);
         if pipeline.groups[..i].iter().any(twice) {
             errors.at(
                 &group.record,
@@ -122,27 +123,10 @@ fn groups(pipeline: &Pipeline, errors: &mut Errors) {
                     format!("`{ray}` is not among the `rays` of `{pipeline}`: add `{ray} {{ miss: .. }}` there{or}"),
                 );
             }
-            match (group.geometry, &programs.intersection) {
-                (Geometry::Custom, None) => errors.at(
-                    &programs.ray,
-                    format!(
-                        "hit group `{record} on Custom` has no intersection program for ray type `{ray}`, so `{ray}` rays \
-                         could not see it: add `intersection: ..`"
-                    ),
-                ),
-                (Geometry::Triangles, Some(program)) => errors.at(
-                    program,
-                    format!(
-                        "`{record} on Triangles` can't have an intersection program: triangles are intersected by \
-                         hardware; remove it, or write `{record} on Custom`"
-                    ),
-                ),
-                _ => {}
-            }
         }
         // A ray type that is not listed is likely one that is missing, and has its message.
         if !missing.is_empty() && group.rays.iter().all(|programs| is_listed(&programs.ray)) {
-            let inner = if group.geometry == Geometry::Custom { " { intersection: .. }" } else { " {}" };
+            let inner = if group.has_intersection_program() { " { intersection: .. }" } else { " {}" };
             let entries: Vec<String> = missing.iter().map(|ray| format!("{ray}{inner}")).collect();
             errors.push(Error::new(
                 group.span,
@@ -150,7 +134,7 @@ fn groups(pipeline: &Pipeline, errors: &mut Errors) {
                     "hit group `{record} on {geometry}` does not say what happens to ray type `{}`: add `{}`{}",
                     missing.join("`, `"),
                     entries.join(", "),
-                    if group.geometry == Geometry::Custom { "" } else { ", or name programs in the braces" },
+                    if group.has_intersection_program() { "" } else { ", or name programs in the braces" },
                 ),
             ));
         }

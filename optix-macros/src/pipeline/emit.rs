@@ -1,8 +1,8 @@
 //! The pipeline type, its description for the host, and the entry points of both machines.
 
 use super::check::path;
-use super::names::{imports, is_function, named, type_of};
-use super::parse::{Geometry, Group, Pipeline, Programs};
+use super::names::{imports, is_function, kind_of, named, type_of};
+use super::parse::{Group, Pipeline, Programs};
 use crate::compiler::has_cfg;
 use crate::place::place;
 use crate::program::Kind;
@@ -29,13 +29,13 @@ impl Entries<'_> {
     }
 
     /// Makes the entry of a program on both machines; gives the host's `Entry`.
-    /// `types` are those of the entry, `bound` the trait that has the program's function.
+    /// `types` are those of the entry, `item` gives what the program's trait has by a name.
     fn add(
         &mut self,
         kind: Kind,
         program: &Path,
         types: &TokenStream,
-        bound: &TokenStream,
+        item: &dyn Fn(&str) -> TokenStream,
         of: &[String],
     ) -> TokenStream {
         let krate = &device_crate();
@@ -54,7 +54,7 @@ impl Entries<'_> {
         let device = format_ident!("{entry_name}");
         let host = format_ident!("__run_{}", self.names.len() - 1);
         let body = format_ident!("{}", kind.attribute());
-        let (run, span) = (of_program(krate, program, bound, "run"), program_span(program));
+        let (run, span) = (item("run"), program_span(program));
         let run = match kind {
             Kind::RayGen | Kind::Exception => quote_spanned!(span=> #run(&__context, __record)),
             Kind::DirectCallable | Kind::ContinuationCallable => {
@@ -63,7 +63,7 @@ impl Entries<'_> {
             _ => quote_spanned!(span=> #run(&__context, __record, __input)),
         };
         let enter = quote!(#krate::program::entry::#body::<#types>);
-        let signature = of_program(krate, program, bound, "Signature");
+        let signature = item("Signature");
         let call = match kind {
             Kind::DirectCallable | Kind::ContinuationCallable => quote! {
                 let __arguments = unsafe { #krate::program::entry::arguments::<#signature>(&__cx) };
@@ -204,10 +204,10 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
     entries.crossings.push(quote!(<#ident as #krate::pipeline::Pipeline>::PARAMS_CROSSING));
 
     let raygen: Vec<_> = pipeline.raygen.iter().enumerate().map(|(i, program)| {
-        let bound = quote!(RayGenProgram<#ident>);
-        let record = of_program(krate, program, &bound, "Record");
+        let item = |item: &str| of_program(krate, program, &quote!(RayGenProgram<#ident>), item);
+        let record = item("Record");
         entries.crosses("record", &record);
-        let entry = entries.add(Kind::RayGen, program, &quote!(#ident, _), &bound, &[]);
+        let entry = entries.add(Kind::RayGen, program, &quote!(#ident, _), &item, &[]);
         let index = i as u32;
         let program = type_of(program);
         impls.extend(quote! {
@@ -225,10 +225,10 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
         let payload = &named(&ray.payload);
         let miss = ray.miss.as_ref().map(|program| {
             let record = miss_record(pipeline, payload, Some(program));
-            let bound = quote!(MissProgram<#ident, #payload>);
+            let item = |item: &str| of_program(krate, program, &quote!(MissProgram<#ident, #payload>), item);
             let types = quote!(#ident, #payload, _);
             entries.crosses("record", &record);
-            let entry = entries.add(Kind::Miss, program, &types, &bound, &[symbol(&ray.payload)]);
+            let entry = entries.add(Kind::Miss, program, &types, &item, &[symbol(&ray.payload)]);
             quote!(#krate::host::ProgramDescription { entry: #entry, record: #krate::host::RecordLayout::of::<#record>() })
         });
         if miss.is_none() {
@@ -245,15 +245,14 @@ pub fn emit(pipeline: &Pipeline) -> TokenStream {
 
     let mut groups = Vec::new();
     for (i, group) in pipeline.groups.iter().enumerate() {
-        let (record, index) = (&named(&group.record), i as u32);
-        let geometry = format_ident!("{}", group.geometry.name(), span = group.geometry_span);
+        let (record, geometry, index) = (&named(&group.record), kind_of(&group.geometry), i as u32);
         let span = place_of(record);
         let (there, pipeline_there) = (moved(krate, span), moved(ident, span));
         // Two names of one record conflict: rustc says so where the names are.
         impls.extend(quote_spanned! {span=>
             // SAFETY: description and numbers are made from one list.
             #[automatically_derived]
-            unsafe impl #there::pipeline::HasHitGroup<#record, #krate::attributes::#geometry> for #pipeline_there
+            unsafe impl #there::pipeline::HasHitGroup<#record, #geometry> for #pipeline_there
             where
                 for<'__never> #record: #there::record::SbtRecord, // on trust: a record that is none is reported below
             {
@@ -363,7 +362,7 @@ fn callables(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenSt
         });
         entries.crosses("record", &record);
         entries.crossings.push(quote!(#krate::layout::Crossing::signature::<#signature>(#program_name)));
-        let entry = entries.add(kind, program, &quote!(#ident, _), &bound, &[]);
+        let entry = entries.add(kind, program, &quote!(#ident, _), &of, &[]);
         quote! {
             #krate::host::CallableDescription::of::<#record, #signature, #krate::callable::#word>(#entry)
         }
@@ -406,8 +405,8 @@ fn exceptions(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenS
         None => (option(None), quote!(&[])),
     };
     let program = pipeline.exception.as_ref().map(|program| {
-        let bound = quote!(ExceptionProgram<#ident>);
-        let record = of_program(krate, program, &bound, "Record");
+        let item = |item: &str| of_program(krate, program, &quote!(ExceptionProgram<#ident>), item);
+        let record = item("Record");
         impls.extend(quote! {
             // SAFETY: description and record are made from one declaration.
             #[automatically_derived]
@@ -416,7 +415,7 @@ fn exceptions(pipeline: &Pipeline, entries: &mut Entries<'_>, impls: &mut TokenS
             }
         });
         entries.crosses("record", &record);
-        let entry = entries.add(Kind::Exception, program, &quote!(#ident, _), &bound, &[]);
+        let entry = entries.add(Kind::Exception, program, &quote!(#ident, _), &item, &[]);
         quote!(#krate::host::ProgramDescription { entry: #entry, record: #krate::host::RecordLayout::of::<#record>() })
     });
     let program = option(program);
@@ -431,12 +430,26 @@ fn describe_group(
     impls: &mut TokenStream,
 ) -> TokenStream {
     let (ident, krate, record) = (&pipeline.ident, &device_crate(), &named(&group.record));
-    let hits_of = |programs: &Programs| match &programs.intersection {
-        Some(program) => {
-            let ray = named(&programs.ray);
-            of_program(krate, program, &quote!(IntersectionProgram<#ident, #record, #ray>), "Attributes")
-        }
-        None => quote!(#krate::attributes::Triangles),
+    let geometry = &kind_of(&group.geometry);
+    let primitive = quote!(<#geometry as #krate::primitive::Primitive>);
+    // A program is checked as what the kind of primitive makes of it.
+    let item_of = |program: &Path, made: TokenStream, bound: TokenStream, item: &str| {
+        let item = format_ident!("{item}");
+        moved(&quote!(<#made as #krate::program::#bound>::#item), program_span(program))
+    };
+    let intersection = |programs: &Programs, program: &Path, item: &str| {
+        let (ray, program_type) = (named(&programs.ray), type_of(program));
+        let made = quote!(#primitive::IntersectionProgram<#program_type>);
+        item_of(program, made, quote!(IntersectionProgram<#ident, #record, #ray>), item)
+    };
+    let reported = |programs: &Programs| Some(intersection(programs, programs.intersection.as_ref()?, "Attributes"));
+    let any_reported = group.rays.iter().find_map(reported);
+    let hits_of = |programs: &Programs| {
+        let program = programs.intersection.as_ref();
+        let span = program.map_or_else(|| place_of(geometry), program_span);
+        let reported = reported(programs).or_else(|| any_reported.clone());
+        let reported = reported.unwrap_or_else(|| quote!(#krate::check::NoHits));
+        moved(&quote!(#primitive::Hits<#reported>), span)
     };
     let mut first: Option<&Programs> = None;
     // In the order of `rays`, which is the order of the records.
@@ -457,24 +470,34 @@ fn describe_group(
                         const _: () = #krate::check::same_hits::<#hits, #other>();
                     });
                 }
-                _ => first = Some(programs),
+                (None, _) => first = Some(programs),
+                (Some(_), None) => {}
             }
+            impls.extend(fits_primitives(group, programs));
             if programs.closesthit.is_none() {
                 impls.extend(nothing_to_write(krate, ray, "FromClosestHit"));
             }
-            let mut of = vec![symbol(&group.record), symbol(&programs.ray)];
-            if group.geometry == Geometry::Custom {
-                of.push("Custom".to_owned());
-            }
+            let of = [symbol(&group.record), symbol(&programs.ray), symbol(&group.geometry)];
             let mut entry = |kind: Kind| {
                 let program = programs.get(kind)?;
+                if kind == Kind::Intersection {
+                    let reported = reported(programs)?;
+                    let types = quote!(#ident, #reported, #record, #ray);
+                    return Some(entries.add(
+                        kind,
+                        program,
+                        &types,
+                        &|item| intersection(programs, program, item),
+                        &of,
+                    ));
+                }
                 let types = quote!(#ident, #hits, #record, #ray);
-                let bound = match kind {
-                    Kind::Intersection => quote!(IntersectionProgram<#ident, #record, #ray>),
-                    Kind::AnyHit => quote!(AnyHitProgram<#types>),
-                    _ => quote!(ClosestHitProgram<#types>),
-                };
-                Some(entries.add(kind, program, &types, &bound, &of))
+                let (program_trait, mut made) = (kind.program_trait(), type_of(program).to_token_stream());
+                if any_reported.is_none() {
+                    made = quote!(#primitive::ProgramOfBuiltIn<#made>);
+                }
+                let item = |item: &str| item_of(program, made.clone(), quote!(#program_trait<#types>), item);
+                Some(entries.add(kind, program, &types, &item, &of))
             };
             let closesthit = option(entry(Kind::ClosestHit));
             let anyhit = option(entry(Kind::AnyHit));
@@ -484,23 +507,33 @@ fn describe_group(
             })
         })
         .collect();
-    let geometry = format_ident!("{}", group.geometry.name());
     entries.crosses("record", &record.to_token_stream());
     let words = match first {
         Some(programs) => {
             let hits = hits_of(programs);
             entries.crosses("attributes", &hits);
-            quote!(<#hits as #krate::attributes::Attributes>::WORDS)
+            quote!(<#hits as #krate::primitive::Attributes>::WORDS)
         }
         None => quote!(0),
     };
     quote! {
         #krate::host::HitGroupDescription {
             record: #krate::host::RecordLayout::of::<#record>(),
-            geometry: #krate::attributes::GeometryKind::#geometry,
+            geometry: <#geometry as #krate::primitive::Primitive>::TYPE,
             attribute_words: #words,
             rays: &[#(#rays),*],
         }
+    }
+}
+
+/// Asserts that there is an intersection program for a ray type if primitives of the kind need one, and none if they don't.
+fn fits_primitives(group: &Group, programs: &Programs) -> TokenStream {
+    let span = programs.intersection.as_ref().map_or_else(|| place_of(&programs.ray), program_span);
+    let (krate, geometry) = (moved(&device_crate(), span), moved(&kind_of(&group.geometry), span));
+    let (record, kind, ray) = (path(&group.record), path(&group.geometry), path(&programs.ray));
+    let given = programs.intersection.is_some();
+    quote_spanned! {span=>
+        const _: () = #krate::check::intersection_program::<#geometry>(#given, #record, #kind, #ray);
     }
 }
 

@@ -1,4 +1,4 @@
-//! The programs' types, payloads and records, by names of the macro's own.
+//! The programs' types, payloads, records and kinds of primitive, by names of the macro's own.
 //!
 //! A function without an attribute has no type of its name, and rustc would say so in words that help nobody. So each program
 //! is imported: by a `use`, which takes the function, and its type if it has one; and by a glob, which `use` takes precedence
@@ -6,7 +6,7 @@
 
 use super::emit::program_span;
 use super::parse::Pipeline;
-use crate::support::place_of;
+use crate::support::{device_crate, moved, place_of};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::{Ident, Path, Type};
@@ -16,10 +16,15 @@ pub fn type_of(program: &Path) -> Ident {
     format_ident!("__program_{}", word(program), span = program_span(program))
 }
 
-/// The name of a payload or record, at the place where it is mentioned: so a type that is not there is one error, at its first
+/// The name of a payload, record or kind of primitive, at the place where it is mentioned: so a type that is not there is one error, at its first
 /// mention.
 pub fn named(ty: &Type) -> Ident {
     format_ident!("__type_{}", word(ty), span = place_of(ty))
+}
+
+/// The name of a kind of primitive, at the place where it is mentioned.
+pub fn kind_of(geometry: &Ident) -> Ident {
+    format_ident!("__kind_{}", word(geometry), span = place_of(geometry))
 }
 
 /// What is written, as a part of a name.
@@ -60,6 +65,16 @@ pub fn imports(pipeline: &Pipeline) -> TokenStream {
         let name = named(ty);
         quote_spanned!(place_of(ty)=> type #name = #ty;)
     });
+    let mut kinds: Vec<&Ident> = Vec::new();
+    for group in &pipeline.groups {
+        if !kinds.contains(&&group.geometry) {
+            kinds.push(&group.geometry);
+        }
+    }
+    let kinds = kinds.into_iter().map(|geometry| {
+        let (name, krate) = (kind_of(geometry), moved(&device_crate(), place_of(geometry)));
+        quote_spanned!(place_of(geometry)=> type #name = #krate::primitive::kinds::#geometry;)
+    });
     // A `use` of a name that is not there would fail, so there is a macro of that name.
     let macros = programs.iter().filter_map(|program| {
         let name = program.get_ident()?;
@@ -81,6 +96,7 @@ pub fn imports(pipeline: &Pipeline) -> TokenStream {
         use __not_there::*;
         #(#uses)*
         #(#types)*
+        #(#kinds)*
     }
 }
 

@@ -214,7 +214,7 @@ fn without_defaults(generics: &Generics) -> Generics {
 pub fn fallback(kind: Kind, ident: &Ident) -> TokenStream {
     let (krate, marker, trait_name) = (&device_crate(), marker(ident), kind.program_trait());
     let pipeline = quote!(__P: #krate::pipeline::Pipeline);
-    let hits = quote!(__A: #krate::attributes::Attributes);
+    let hits = quote!(__A: #krate::primitive::Attributes);
     let record = quote!(__Rec: #krate::record::SbtRecord);
     let payload = quote!(__R: #krate::payload::Payload);
     let at = |role: &str| {

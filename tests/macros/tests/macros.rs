@@ -1,10 +1,10 @@
 //! What the macros make: layouts, semantics, twins, words, and programs that run on a frame.
 
-use optix_device_rs::attributes::GeometryKind;
 use optix_device_rs::host::{DeviceId, KeepAlive, Twin, World};
 use optix_device_rs::payload::{Part, semantics::*};
 use optix_device_rs::pipeline::{HasHitGroup, HasRay, HasRayGen};
 use optix_device_rs::prelude::*;
+use optix_device_rs::primitive::PrimitiveType;
 use optix_device_rs::words::WordBuffer;
 use std::sync::Arc;
 
@@ -435,7 +435,7 @@ fn a_pipeline_describes_itself() {
     assert!(description.rays[0].miss.is_some() && description.rays[1].miss.is_none());
     assert_eq!(description.rays[0].payload.semantics, Radiance::SEMANTICS);
     let groups = description.hitgroups;
-    assert_eq!(groups[0].geometry, GeometryKind::Triangles);
+    assert_eq!(groups[0].geometry, PrimitiveType::Triangle);
     assert_eq!((groups[0].attribute_words, groups[1].attribute_words), (2, 6));
     // In the order of `rays`, not in the order written.
     let functions =

@@ -7,7 +7,7 @@ pub struct BallHit {
     pub at: Vec2,
 }
 
-impl optix_device_rs::check::OnTriangles for BallHit {}
+impl optix_device_rs::primitive::OnTriangles for BallHit {}
 
 #[closesthit]
 fn shade<P: Pipeline>(hit: &ClosestHit<P, BallHit>) {

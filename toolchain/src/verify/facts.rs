@@ -89,8 +89,10 @@ pub struct Program {
     pub ray: Option<usize>,
     /// The material of its hit group: the record's name. None for others.
     pub material: Option<String>,
-    /// Whether it is for custom primitives.
-    pub custom: bool,
+    /// The kind of primitive of its hit group, as `pipeline!` has it after `on`. None for others.
+    pub primitive: Option<String>,
+    /// Functions in the PTX that ask about hits on other kinds of primitive.
+    pub undefined: Vec<String>,
 }
 
 /// The kind of a device program.
@@ -233,6 +235,12 @@ fn program(json: &Json) -> Option<Program> {
         function: text(json, "function")?,
         ray: json.get("ray").number(),
         material: text(json, "material"),
-        custom: json.get("custom") == &Json::Bool(true),
+        primitive: text(json, "primitive"),
+        undefined: json
+            .get("undefined")
+            .items()
+            .iter()
+            .map(|name| name.str().map(str::to_string))
+            .collect::<Option<_>>()?,
     })
 }

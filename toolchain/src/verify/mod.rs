@@ -13,7 +13,7 @@
 //! | each program announces the payload type of its ray type | [`Rule::PayloadType`] |
 //! | each trace call has its ray type's payload, SBT offset, stride and miss index | [`Rule::Trace`] |
 //! | payload words are read and written only by programs that may | [`Rule::PayloadWord`] |
-//! | programs of custom primitives ask nothing about triangles | [`Rule::Primitive`] |
+//! | programs ask about no other kind of primitive than that of their hits | [`Rule::Primitive`] |
 //! | no local memory but for payloads that travel by pointer | [`Rule::LocalMemory`] |
 //! | no function calls but those that the caller allows, and of the toolkit's own maths for rare arguments | [`Rule::Call`] |
 //! | callables are called, and exceptions thrown, by programs that may | [`Rule::Callable`] |

@@ -1,4 +1,5 @@
-//! Checks that only programs for triangles ask about triangles (guide 13.9).
+//! Queries of hits: that a program asks about its own kind of primitive only (guide 13.9). Which functions ask about which kind
+//! is known where the kind is: the host's description says it.
 
 use optix_ptx::Function;
 
@@ -6,12 +7,11 @@ use super::facts::Program;
 use super::finding::{Finding, Rule};
 use super::place;
 
-/// Device functions that are undefined if the current hit is not on a triangle.
-const OF_TRIANGLES: [&str; 2] = ["_optix_get_triangle_barycentrics", "_optix_get_triangle_vertex_data_current_hit"];
-
 pub(super) fn check(function: &Function<'_>, program: &Program, item: &str, findings: &mut Vec<Finding>) {
-    for call in function.calls().iter().filter(|call| program.custom && OF_TRIANGLES.contains(&call.function)) {
-        let message = format!("calls `{}`, and its hits are of custom primitives", call.function);
+    let Some(primitive) = &program.primitive else { return };
+    let is_undefined = |name: &str| program.undefined.iter().any(|other| other == name);
+    for call in function.calls().iter().filter(|call| is_undefined(call.function)) {
+        let message = format!("calls `{}`, which is undefined for hits on `{primitive}`", call.function);
         findings.push(Finding::error(Rule::Primitive, place(function, item), message));
     }
 }

@@ -7,8 +7,11 @@ const PTX: &str = include_str!("tests/sound.ptx");
 
 fn program(kind: Kind, function: &str, ray: Option<usize>, material: Option<&str>) -> Program {
     let entry = format!("__{}__Demo_{function}_0123abcd", kind.word());
+    let primitive = material.map(|material| if material == "Ball" { "Custom" } else { "Triangles" }.to_string());
+    let queries = ["_optix_get_triangle_barycentrics", "_optix_get_triangle_vertex_data_current_hit"];
+    let undefined = if material == Some("Ball") { queries.map(str::to_string).into() } else { Vec::new() };
     let material = material.map(str::to_string);
-    Program { kind, entry, function: function.into(), ray, custom: material.as_deref() == Some("Ball"), material }
+    Program { kind, entry, function: function.into(), ray, material, primitive, undefined }
 }
 
 fn crossing(what: &str, name: &str, size: usize, unit: &str, layout: u64) -> Crossing {
@@ -121,7 +124,7 @@ fn primitives() {
     let hit = "// ball";
     for query in ["barycentrics", "vertex_data_current_hit"] {
         let call = format!("call (%f1, %f2), _optix_get_triangle_{query}, ();");
-        one(hit, &call, &["error[primitive]", "intersection program `ball`", query, "custom primitives"]);
+        one(hit, &call, &["error[primitive]", "intersection program `ball`", query, "undefined for hits on `Custom`"]);
         assert_eq!(findings("call _optix_ignore_intersection, ();", &call), [] as [&str; 0]);
     }
 }

@@ -1,6 +1,7 @@
 //! Written by optix-toolchain; see its `verify` module. Prints the pipelines of a shader crate as JSON.
 
-use optix_device_rs::host::{Entry, GeometryKind, HitGroupDescription, PipelineDescription};
+use optix_device_rs::host::{Entry, HitGroupDescription, PipelineDescription};
+use optix_device_rs::primitive::PrimitiveType;
 
 fn main() {
     let pipelines: Vec<String> = facts::all().into_iter().map(pipeline).collect();
@@ -50,9 +51,11 @@ fn programs(pipeline: &PipelineDescription) -> Vec<String> {
     let mut add = |kind: &str, entry: &Entry, ray: Option<usize>, group: Option<&HitGroupDescription>| {
         let ray = ray.map_or("null".to_string(), |ray| ray.to_string());
         let material = group.map_or("null".to_string(), |group| format!("{:?}", group.record.name));
-        let custom = group.is_some_and(|group| group.geometry == GeometryKind::Custom);
+        let primitive = group.map_or("null".to_string(), |group| format!("{:?}", group.geometry.name()));
+        let others = PrimitiveType::ALL.iter().filter(|other| group.is_some_and(|group| group.geometry != **other));
+        let undefined: Vec<&str> = others.flat_map(|other| other.queries()).copied().collect();
         programs.push(format!(
-            r#"{{"kind":{kind:?},"entry":{:?},"function":{:?},"ray":{ray},"material":{material},"custom":{custom}}}"#,
+            r#"{{"kind":{kind:?},"entry":{:?},"function":{:?},"ray":{ray},"material":{material},"primitive":{primitive},"undefined":{undefined:?}}}"#,
             entry.name, entry.function
         ));
     };

@@ -1,15 +1,17 @@
 //! The primitive and the hit (guide 13.4, 13.7).
 
 use super::Cx;
+use crate::primitive::PrimitiveType;
 use crate::words::WordBuffer;
 use core::arch::asm;
 use glam::Vec2;
 
-/// `OptixPrimitiveType` of a hit kind; legal in all programs.
+/// The kind of primitive that a hit kind is of; legal in all programs.
 #[inline(always)]
-pub fn primitive_type_of(kind: u8) -> u32 {
+pub fn primitive_type_of(kind: u8) -> PrimitiveType {
     // SAFETY: defined for every hit kind.
-    unsafe { get_of!("_optix_get_primitive_type_from_hit_kind", reg32 u32::from(kind), reg32 as u32) }
+    let number = unsafe { get_of!("_optix_get_primitive_type_from_hit_kind", reg32 u32::from(kind), reg32 as u32) };
+    PrimitiveType::from_optix(number)
 }
 
 /// Whether a hit kind says that the back of a built-in primitive was hit; legal in all programs.

@@ -8,8 +8,8 @@ use crate::sbt::HitProgram;
 use glam::Vec3;
 use optix_device_rs::callable::Direct;
 use optix_device_rs::host::{
-    CallableDescription, Entry, ExceptionsDescription, Frame, GeometryKind, Handle, HitGroupDescription,
-    ParamsDescription, PayloadDescription, ProgramDescription, RayDescription, RecordLayout, TraceCall,
+    CallableDescription, Entry, ExceptionsDescription, Frame, Handle, HitGroupDescription, ParamsDescription,
+    PayloadDescription, PrimitiveType, ProgramDescription, RayDescription, RecordLayout, TraceCall,
 };
 use optix_device_rs::machine::Cx;
 use optix_device_rs::payload::Field;
@@ -146,7 +146,7 @@ const RECORD: RecordLayout = RecordLayout { name: "()", size: 0, align: 1 };
 const fn word(name: &'static str, at: usize) -> Field {
     Field { name, at, count: 1 }
 }
-const fn group(geometry: GeometryKind, rays: &'static [HitPrograms]) -> HitGroupDescription {
+const fn group(geometry: PrimitiveType, rays: &'static [HitPrograms]) -> HitGroupDescription {
     HitGroupDescription { record: RECORD, geometry, attribute_words: 0, rays }
 }
 const HIT: HitPrograms = HitPrograms {
@@ -168,9 +168,9 @@ static PIPELINE: PipelineDescription = PipelineDescription {
         miss: Some(ProgramDescription { entry: entry("__miss__test", miss), record: RECORD }),
     }],
     hitgroups: &[
-        group(GeometryKind::Triangles, &[HIT]),
+        group(PrimitiveType::Triangle, &[HIT]),
         group(
-            GeometryKind::Custom,
+            PrimitiveType::Custom,
             &[HitPrograms { intersection: Some(entry("__intersection__test", intersection)), ..HIT }],
         ),
     ],

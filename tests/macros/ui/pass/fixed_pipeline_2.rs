@@ -234,6 +234,32 @@ mod pipeline_triangles_with_intersection {
     }
 }
 
+mod pipeline_custom_without_any_intersection {
+    use crate::common::*;
+
+    pipeline! {
+        pub struct PathTracer {
+            params: Frame,
+            raygen: [camera],
+            rays: { Radiance { miss: sky }, Shadow { miss: lit } },
+            hitgroups: { Ball on Custom => { Radiance { closesthit: ball_shade, intersection: ball }, Shadow { intersection: ball } } },
+        }
+    }
+}
+
+mod pipeline_on_no_primitive {
+    use crate::common::*;
+
+    pipeline! {
+        pub struct PathTracer {
+            params: Frame,
+            raygen: [camera],
+            rays: { Radiance { miss: sky }, Shadow { miss: lit } },
+            hitgroups: { Lambert on Triangles => { Radiance { closesthit: lambert }, Shadow {} } },
+        }
+    }
+}
+
 mod pipeline_unknown_geometry {
     use crate::common::*;
 

@@ -1,0 +1,273 @@
+//! Built-in triangles.
+
+use super::{Attributes, Primitive, PrimitiveType};
+use crate::check::FitsEverywhere;
+use crate::data::DeviceData;
+use crate::layout::Layout;
+use crate::machine::check;
+#[cfg(target_arch = "nvptx64")]
+use crate::math::Math;
+use crate::program::{AnyHit, ClosestHit, Context, Face, Here, HitKind, Transform};
+use crate::spawn::{SurfacePoint, TINY, U, gamma};
+use crate::view::Slice;
+use crate::words::{FromRaw, Words, words_of_raw};
+use core::ops::RangeInclusive;
+use glam::{Vec2, Vec3};
+
+/// A hit on a built-in triangle; its attributes are the barycentrics.
+///
+/// The hit point is `(1 - u - v) * p0 + u * p1 + v * p2` (guide 13.4).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangles {
+    /// Weight of the second vertex, 0 to 1.
+    pub u: f32,
+    /// Weight of the third vertex, 0 to 1.
+    pub v: f32,
+}
+
+impl Primitive for Triangles {
+    const TYPE: PrimitiveType = PrimitiveType::Triangle;
+    const OPTIX_TYPE: u32 = 0x2531;
+    const HIT_KINDS: RangeInclusive<u8> = FRONT_FACE..=BACK_FACE;
+    const HAS_INTERSECTION_PROGRAM: bool = false;
+    const QUERIES: &'static [&'static str] =
+        &["_optix_get_triangle_barycentrics", "_optix_get_triangle_vertex_data_current_hit"];
+    type Hits<Reported: Attributes> = Self;
+    type IntersectionProgram<Program> = FitsEverywhere;
+    type ProgramOfBuiltIn<Program> = Program;
+}
+
+impl Attributes for Triangles {
+    const NAME: &'static str = "Triangles";
+    const WORDS: usize = 2;
+    #[inline(always)]
+    unsafe fn load(words: &[u32]) -> Self {
+        // SAFETY: two numbers were stored, or a backend wrote their bits.
+        let [u, v] = unsafe { Words::load(words) };
+        Self { u, v }
+    }
+    #[inline(always)]
+    fn store(self, words: &mut [u32]) {
+        [self.u, self.v].store(words);
+    }
+}
+
+// ---- Hit kinds -----------------------------------------------------------------------------------------------------
+
+const FRONT_FACE: u8 = 254;
+const BACK_FACE: u8 = 255;
+
+impl HitKind {
+    /// The front of a built-in triangle.
+    pub const TRIANGLE_FRONT_FACE: Self = Self::of_number(FRONT_FACE);
+    /// The back of a built-in triangle.
+    pub const TRIANGLE_BACK_FACE: Self = Self::of_number(BACK_FACE);
+
+    /// Whether it is a triangle's (`optixIsTriangleHit`).
+    #[inline(always)]
+    pub fn is_triangle(self) -> bool {
+        self.get() >= FRONT_FACE
+    }
+}
+
+// ---- What programs ask about the triangle that was hit -------------------------------------------------------------
+
+/// Hits on triangles.
+///
+/// # Safety
+/// As the name says: other hits have no triangle to ask about.
+#[diagnostic::on_unimplemented(
+    message = "hits that carry `{Self}` are not hits on triangles",
+    label = "only hits on triangles have barycentrics, a face, vertices and a surface point (guide 13.4, 13.9)",
+    note = "read what the intersection program reported: `hit.attributes()`; in a program for any kind of hit, ask for `Triangles` in its context"
+)]
+pub unsafe trait OnTriangles {}
+// SAFETY: the attributes of the built-in intersection.
+unsafe impl OnTriangles for Triangles {}
+
+macro_rules! triangle_queries {
+    ($($name:ident),*) => {$(
+        // The bound is on the methods, not the impl: so its message is shown.
+        impl<P, A> $name<P, A> {
+            /// Weights of the second and third vertex (guide 13.4).
+            #[inline(always)]
+            pub fn barycentrics(&self) -> Vec2
+            where
+                A: OnTriangles,
+            {
+                self.cx.barycentrics()
+            }
+            /// Which side was hit (`optixIsFrontFaceHit`, `optixIsBackFaceHit`); an instance may flip it.
+            #[inline(always)]
+            pub fn face(&self) -> Face
+            where
+                A: OnTriangles,
+            {
+                self.hit_kind().side()
+            }
+            /// The triangle's vertices in object space (guide 13.9).
+            #[inline(always)]
+            pub fn vertices(&self) -> [Vec3; 3]
+            where
+                A: OnTriangles,
+            {
+                self.cx.triangle_vertices()
+            }
+        }
+    )*};
+}
+triangle_queries!(AnyHit, ClosestHit);
+
+impl<P, A> ClosestHit<P, A> {
+    /// The hit point in world space with its normal and error bound, to shade and to spawn rays from.
+    #[inline(always)]
+    pub fn surface_point(&self) -> SurfacePoint
+    where
+        A: OnTriangles,
+    {
+        SurfacePoint::of_triangle(
+            self.vertices(),
+            self.barycentrics(),
+            &self.object_to_world(),
+            &self.world_to_object(),
+        )
+    }
+}
+
+// ---- Triangles of a structure, by number ---------------------------------------------------------------------------
+
+/// The triangles of a GAS.
+///
+/// On the host it is a [`TriangleTable`](crate::host::TriangleTable).
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct TriangleVertices {
+    gas: u64,
+    /// Per record of the GAS: triangles in its build input.
+    counts: Slice<u32>,
+}
+
+/// # Safety
+/// The handle is of a GAS of triangles, built with random vertex access on the machine that launches, and stays alive while
+/// programs may use the view; it has as many records as `counts`, each of a build input with so many triangles.
+impl FromRaw for TriangleVertices {
+    type Raw = (u64, Slice<u32>);
+    #[inline(always)]
+    unsafe fn from_raw((gas, counts): (u64, Slice<u32>)) -> Self {
+        Self { gas, counts }
+    }
+}
+
+impl TriangleVertices {
+    #[doc(hidden)]
+    pub const fn to_raw(self) -> [u64; 3] {
+        let [address, len] = self.counts.to_raw();
+        [self.gas, address, len]
+    }
+
+    /// How many records the GAS has: one for each material of each geometry, in order.
+    #[inline(always)]
+    pub const fn records(self) -> u32 {
+        self.counts.len() as u32
+    }
+
+    /// How many triangles the geometry of a record has. A record out of range ends the program.
+    #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
+    pub fn triangles(self, sbt_gas_index: u32) -> u32 {
+        self.counts.get(sbt_gas_index)
+    }
+
+    /// The vertices of a triangle, in object space: triangle `primitive_index` of the geometry that has the record
+    /// `sbt_gas_index`; the two as a hit's context gives them. `context` is that of the running program
+    /// (`optixGetTriangleVertexDataFromHandle`). For a triangle without area, which no ray meets, NaN or its vertices: the CPU
+    /// says NaN, and a driver may. An index out of range ends the program.
+    #[inline(always)]
+    #[cfg_attr(not(target_arch = "nvptx64"), track_caller)]
+    pub fn get<C: Context>(self, context: &C, sbt_gas_index: u32, primitive_index: u32) -> [Vec3; 3] {
+        let count = self.triangles(sbt_gas_index);
+        let message = format_args!("triangle {primitive_index} is out of range: record {sbt_gas_index} has {count}");
+        check(primitive_index, count, message);
+        // SAFETY: the structure has such a triangle, and was built for this (`from_raw`).
+        unsafe { context.machine(Here(())).triangle_vertices_from_handle(self.gas, primitive_index, sbt_gas_index) }
+    }
+}
+
+words_of_raw! {
+    [] TriangleVertices: [u64; 3], |raw| Self::from_raw((raw[0], Slice::from_raw([raw[1], raw[2]])));
+}
+
+// SAFETY: `#[repr(C)]` integers of 64 bits, the same on both machines.
+unsafe impl DeviceData for TriangleVertices {
+    const LAYOUT: Layout = Layout::of("TriangleVertices");
+    #[inline]
+    fn write_to(&self, bytes: &mut [u8]) {
+        self.to_raw().write_to(bytes);
+    }
+    const UNIT: usize = u64::UNIT;
+}
+
+impl core::fmt::Debug for TriangleVertices {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "TriangleVertices({} records)", self.records())
+    }
+}
+
+// ---- Points on a triangle, with their error ------------------------------------------------------------------------
+
+impl SurfacePoint {
+    /// The point at `barycentrics` of a triangle given in object space; see the type for the bound.
+    #[inline(always)]
+    pub fn of_triangle(
+        [p0, p1, p2]: [Vec3; 3],
+        barycentrics: Vec2,
+        object_to_world: &Transform,
+        world_to_object: &Transform,
+    ) -> Self {
+        let (e1, e2) = (p1 - p0, p2 - p0);
+        let extents = larger(larger(e1.abs(), e2.abs()), (e1 - e2).abs());
+        let extent = extents.x.max(extents.y).max(extents.z);
+        let object = p0 + (e1 * barycentrics.x + e2 * barycentrics.y);
+        // By a power of two, which is exact, so that no product over- or underflows.
+        let scale = reciprocal_power(extent);
+        let normal = cross(e1 * scale, e2 * scale).normalize();
+
+        let error = extents * gamma(22) + object.abs() * (2.0 * U) + (extent * gamma(4) + TINY);
+        Self::of_object(object, normal, error, object_to_world, world_to_object)
+    }
+}
+
+/// The larger of each element, in one instruction each.
+#[inline(always)]
+fn larger(a: Vec3, b: Vec3) -> Vec3 {
+    Vec3::new(a.x.max(b.x), a.y.max(b.y), a.z.max(b.z))
+}
+
+/// A power of two from the exponent alone: `2^-e` for `length` from `2^e` to `2^(e+1)`.
+#[inline(always)]
+fn reciprocal_power(length: f32) -> f32 {
+    let exponent = length.to_bits() & 0x7f80_0000;
+    f32::from_bits(0x7f00_0000u32.saturating_sub(exponent).max(0x0080_0000))
+}
+
+/// The cross product, each element good to 2 u.
+#[inline(always)]
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    let difference = difference_of_products;
+    Vec3::new(difference(a.y, b.z, a.z, b.y), difference(a.z, b.x, a.x, b.z), difference(a.x, b.y, a.y, b.x))
+}
+
+/// `a b - c d`, by Kahan's algorithm.
+#[cfg(target_arch = "nvptx64")]
+#[inline(always)]
+fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
+    let cd = c * d;
+    a.mul_add(b, -cd) + (-c).mul_add(d, cd)
+}
+
+/// `a b - c d`, by products that are exact in `f64`: processors have that at hand, but not always a fused multiply-add.
+#[cfg(not(target_arch = "nvptx64"))]
+#[inline(always)]
+fn difference_of_products(a: f32, b: f32, c: f32, d: f32) -> f32 {
+    (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32
+}
