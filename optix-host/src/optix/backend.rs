@@ -55,7 +55,7 @@ impl Backend for OptixBackend {
         Ok(Arc::new(OptixMemory { device: self.id, buffer: DeviceBuffer::zeroed(&self.context, bytes)? }))
     }
 
-    /// On the device the index is what a call takes.
+    /// On the device, programs call a record by its index, so the number is the index.
     fn number_callables(&self, index: u32, _: u32) -> Result<u32> {
         Ok(index)
     }
@@ -139,7 +139,7 @@ impl OptixPipeline {
             bytes: bound.bytes.clone(),
             annotation: bound.field.name.into(),
         });
-        // Line information that was asked for when the shaders were compiled is kept for profilers.
+        // If the shaders were compiled with line information, it is kept for profilers.
         let has_lines = ptx.lines().any(|line| line.trim_start().starts_with(".loc"));
         let module_options = ModuleOptions {
             debug: if has_lines { DebugLevel::Minimal } else { DebugLevel::Default },
@@ -203,7 +203,7 @@ fn section<K>(section: &Section<K>) -> SbtSection<'_> {
     SbtSection { bytes: section.bytes(), stride: section.stride() }
 }
 
-/// The section with the headers of its programs' groups.
+/// The section, with the headers of its programs' groups written into it.
 fn packed<K: Copy>(mut section: Section<K>, mut group: impl FnMut(&K) -> Result<ProgramGroup>) -> Result<Section<K>> {
     for i in 0..section.programs().len() {
         let mut header = [0; HEADER_SIZE];
@@ -264,8 +264,8 @@ impl Groups<'_> {
         self.get(GroupKey::Hit(slot), &group, has_programs.then_some(slot.ray))
     }
 
-    /// A group may hold a direct and a continuation callable with one record; here each has a record type of its own, so
-    /// a group of its own.
+    /// OptiX allows a direct and a continuation callable in one group, with one record. Here each callable has its own
+    /// type of record, so each has its own group.
     fn callable(&mut self, plan: &Plan, program: usize) -> Result<ProgramGroup> {
         let callable = &plan.description.callables[program];
         let entry = Some(Entry { module: self.module, name: callable.entry.name });

@@ -2,17 +2,19 @@
 
 use crate::plan::BoundValue;
 
-/// How the driver begins a report of a load that it replaced. On the lines below are the annotation, which is the field's
-/// name, and offset and size of value and load.
+/// The first words of the driver's report of a load that it replaced. The next lines have the annotation, which is the
+/// field's name, and offset and size of the value and of the load.
 const REPLACED: &str = "Found specialization";
-/// How any report begins.
+/// The first word of any report.
 const REPORT: &str = "Info:";
 
-/// For each bound value a line on how many of its loads became constants; `log` is what compiling the module wrote.
+/// For each bound value, a line that tells how many of its loads became constants. `log` is what the compiler wrote
+/// about the module.
 pub(super) fn bound_values(log: &str, bound: &[BoundValue]) -> Vec<String> {
     let line = |value: &BoundValue| {
         let name = value.field.name;
-        // At log level 4 there is always feedback on a module that was compiled.
+        // At log level 4, the compiler always gives feedback on a module, so an empty log means that the module came
+        // from the cache.
         if log.is_empty() {
             return format!(
                 "bound value {name}: the module came from the driver's cache, so nothing is said of its loads"

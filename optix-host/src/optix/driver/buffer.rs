@@ -20,7 +20,7 @@ pub struct DeviceBuffer {
     context: Context,
     address: CUdeviceptr,
     len: usize,
-    /// Whose the memory is, where it is other code's.
+    /// The owner of the memory, if other code allocated it.
     owner: Option<Arc<dyn Any + Send + Sync>>,
 }
 
@@ -61,7 +61,7 @@ impl DeviceBuffer {
             // SAFETY: the attribute's value is a context, for which `home` has room.
             let result = unsafe { cu::cuPointerGetAttribute((&raw mut home).cast(), attribute, address) }.result();
             context.cuda("cuPointerGetAttribute", result)?;
-            // Memory from a pool is of no context, but of the device.
+            // Memory from a pool belongs to the device and to no context.
             if !home.is_null() && home != context.cuda_context() {
                 let remedy = "allocate it with this GPU's primary context";
                 return Err(Error::invalid("memory of other code", "it is of another CUDA context", remedy));
@@ -198,7 +198,7 @@ impl Drop for DeviceBuffer {
     }
 }
 
-/// Page-locked host memory, which copies really run beside the host from.
+/// Page-locked host memory. Only copies of such memory run while the host goes on.
 #[derive(Debug)]
 pub(super) struct PinnedBuffer {
     context: Context,

@@ -33,7 +33,7 @@ pub struct ContextOptions {
 /// The compilation cache on disk (guide 4.2). The environment variable `OPTIX_CACHE_PATH` wins over [`Self::At`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum DiskCache {
-    /// On, at the driver's default place.
+    /// On, in the driver's default folder.
     #[default]
     Default,
     /// Off.
@@ -57,7 +57,7 @@ struct Inner {
     cuda: cu::CUcontext,
     device: cu::CUdevice,
     stream: cu::CUstream,
-    /// Whose the stream is, where it is not this context's own.
+    /// The owner of the stream, if it is not this context's own.
     stream_owner: Option<Arc<dyn Any + Send + Sync>>,
     info: DeviceInfo,
     limits: Limits,
@@ -113,7 +113,7 @@ impl Context {
         let api = library::api()?;
         // SAFETY: `device` was returned by cuDeviceGet.
         let cuda = cuda::check("cuDevicePrimaryCtxRetain", unsafe { result::primary_ctx::retain(device) }, Vec::new)?;
-        // From here on dropping `inner` releases what was made so far.
+        // From here on, dropping `inner` releases what has been made.
         let mut inner = Inner {
             api,
             raw: sys::OptixDeviceContext::NULL,
@@ -184,7 +184,7 @@ impl Context {
         self.0.log.messages()
     }
 
-    /// As [`Self::messages`], and forgets them.
+    /// As [`Self::messages`], but the messages are not kept.
     pub fn take_messages(&self) -> Vec<LogMessage> {
         self.0.log.take_messages()
     }

@@ -1,4 +1,4 @@
-//! The CUDA driver: is it there, which GPUs does it see, and a guard that makes a context current.
+//! The CUDA driver: loads it, lists the GPUs that it sees, and makes a context current for as long as a guard lives.
 
 use std::sync::OnceLock;
 

@@ -167,7 +167,7 @@ impl Slot {
 }
 
 fn check_dims(dims: [u32; 3]) -> Result<(), Error> {
-    // Two factors fit 64 bits, the third is checked for.
+    // The product of two dimensions fits 64 bits. Whether that with the third does is checked.
     let size = dims.iter().try_fold(1u64, |size, &dim| size.checked_mul(u64::from(dim)));
     match size {
         Some(1..=MAX_LAUNCH_SIZE) => Ok(()),

@@ -31,7 +31,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Asks `get` for each; an older ABI refuses properties it does not know.
+    /// Asks `get` for each of them. An older ABI refuses properties that it does not know.
     pub(super) fn query(abi: i32, get: impl Fn(P) -> Result<u32, Error>) -> Result<Self, Error> {
         let since = |first: i32, property: P| {
             if abi >= first { get(property).map(|value| value != 0) } else { Ok(false) }

@@ -34,13 +34,13 @@ pub(super) struct LogSink {
 #[derive(Debug, Default)]
 struct State {
     messages: VecDeque<LogMessage>,
-    /// Errors that no [`super::Error`] has carried yet.
+    /// Errors that have not been given to a [`super::Error`] yet.
     unreported: Vec<LogMessage>,
 }
 
 impl LogSink {
     fn state(&self) -> MutexGuard<'_, State> {
-        // A panic while the lock was held leaves plain lists, which are fine to go on with.
+        // If a thread panicked while it held the lock, it left plain lists, which are still good.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

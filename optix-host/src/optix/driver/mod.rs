@@ -10,9 +10,9 @@
 //! - [`ShaderBindingTable`] and [`Pipeline::launch`]: a [`Launch`] holds what it uses until it is done.
 //!
 //! Owners may be cloned, sent and shared between threads. Dropping one never panics; what frees device memory waits for
-//! the stream first. Arguments are checked before the driver sees them where the guide, in its chapters 5 to 12, sets a rule that the host
-//! can check. What can't be checked, contents of device memory and of launch parameters, is asked for by `unsafe`
-//! functions that say what must hold.
+//! the stream first. Arguments are checked before the driver sees them, as far as chapters 5 to 12 of the guide set a
+//! rule that the host can check. What the host can't check, such as the contents of device memory and of launch
+//! parameters, is the caller's promise to `unsafe` functions.
 
 mod accel;
 mod buffer;

@@ -14,9 +14,9 @@ use crate::error::DriverError as Error;
 /// Which built-in intersection program (guide 9.1). It must match the build it is used with.
 #[derive(Clone, Debug)]
 pub struct BuiltinIntersection<'a> {
-    /// Curves of some kind, or spheres.
+    /// The kind of primitive: one of the kinds of curves, or spheres.
     pub primitive: sys::OptixPrimitiveType,
-    /// Whether the vertices move; not for motion transforms.
+    /// Whether the vertices move. This is not about motion transforms.
     pub vertex_motion: bool,
     /// The options that the geometry acceleration structure is built with.
     pub accel: &'a AccelOptions,
@@ -74,7 +74,7 @@ impl Module {
                 &mut raw,
             )
         };
-        // The module exists after some failures too, and has to be destroyed then.
+        // A module exists even after some failures, and has to be destroyed then.
         let module = Self::own(context, raw, pipeline, log.text());
         context.check_compile("optixModuleCreate", result, &log)?;
         Ok(module)

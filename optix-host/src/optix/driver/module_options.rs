@@ -11,7 +11,7 @@ use crate::limits::MAX_PAYLOAD_TYPES;
 /// How one module is compiled. Modules of one pipeline may differ in it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ModuleOptions {
-    /// Registers a thread may use; 0 for no limit of ours.
+    /// The registers that a thread may use; 0 leaves the limit to the driver.
     pub max_registers: u32,
     /// How hard the compiler optimises.
     pub optimization: OptimizationLevel,
@@ -48,7 +48,7 @@ pub enum DebugLevel {
     Default,
     /// None.
     None,
-    /// What costs no speed.
+    /// Only what costs no speed.
     Minimal,
     /// What profilers need; costs some speed.
     Moderate,
@@ -60,16 +60,16 @@ pub enum DebugLevel {
 /// another value is undefined behaviour, which validation mode finds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BoundValue {
-    /// Where in the launch parameters, in bytes.
+    /// The offset in the launch parameters, in bytes.
     pub offset: usize,
     /// The value.
     pub bytes: Vec<u8>,
-    /// Named in the compiler's feedback wherever a load is replaced.
+    /// The name in the compiler's feedback for each load that is replaced.
     pub annotation: String,
 }
 
 impl ModuleOptions {
-    /// The rules of guide 6.5.1 and 14 that need no driver.
+    /// Checks the rules of guide 6.5.1 and 14 for which no driver is needed.
     pub(super) fn check(&self, pipeline: &PipelineOptions) -> Result<(), Error> {
         const WHAT: &str = "module options";
         if i32::try_from(self.max_registers).is_err() {

@@ -7,7 +7,7 @@ use super::sys;
 use crate::error::DriverError as Error;
 use crate::limits::{MAX_ATTRIBUTE_WORDS, MAX_PAYLOAD_WORDS};
 
-/// The `ROCAPS` curves, which ABI 105 brought.
+/// The `ROCAPS` curves, which exist from ABI 105 on.
 const ROCAPS: u32 = 0xf00;
 
 /// Options that must be the same for every module whose programs are linked into one pipeline.
@@ -15,7 +15,7 @@ const ROCAPS: u32 = 0xf00;
 pub struct PipelineOptions {
     /// Whether a traversable has motion keys.
     pub motion_blur: bool,
-    /// Which graphs are traced.
+    /// Which traversable graphs are traced.
     pub graph: TraversableGraph,
     /// 32-bit payload words, up to 32. 0 where the modules declare payload types instead.
     pub payload_values: u32,
@@ -31,10 +31,11 @@ pub struct PipelineOptions {
     pub opacity_micromaps: bool,
 }
 
-/// Which traversable graphs a pipeline traces. The fewer, the faster; tracing another is undefined behaviour.
+/// Which traversable graphs a pipeline traces. A narrower choice is faster, but tracing any other graph is undefined
+/// behaviour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TraversableGraph {
-    /// Any.
+    /// Any graph.
     #[default]
     Any,
     /// One geometry acceleration structure.
@@ -73,9 +74,9 @@ impl TraversableGraph {
 pub struct Exceptions {
     /// The continuation stack is too small.
     pub stack_overflow: bool,
-    /// A trace at the deepest level.
+    /// A program traces at the deepest level that is allowed.
     pub trace_depth: bool,
-    /// Those that programs throw.
+    /// The exceptions that programs throw.
     pub user: bool,
 }
 
@@ -106,7 +107,7 @@ impl PrimitiveKinds {
         Self(flags.0)
     }
 
-    /// Both sets together.
+    /// The union of both sets.
     #[must_use]
     pub fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)

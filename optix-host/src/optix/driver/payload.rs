@@ -7,11 +7,11 @@ use crate::limits::MAX_PAYLOAD_WORDS;
 /// A payload: for each 32-bit word, up to 32, who reads and writes it (guide 14).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PayloadType {
-    /// One entry a word.
+    /// An entry for each word.
     pub semantics: Vec<PayloadSemantics>,
 }
 
-/// Who reads and writes a payload word: two bits a party, joined with [`Self::with`].
+/// Who reads and writes a payload word: two bits for each party, joined with [`Self::with`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(transparent)]
 pub struct PayloadSemantics(u32);
@@ -48,7 +48,7 @@ impl PayloadSemantics {
         self.0
     }
 
-    /// Both together.
+    /// The union of both.
     #[must_use]
     pub fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)

@@ -20,7 +20,8 @@ pub struct LinkOptions {
     /// Traversables on the longest path from a traced root to a leaf: 1 for a lone geometry acceleration structure, 2 for
     /// one level of instances, and one more for each transform and each level of instances between.
     pub max_graph_depth: u32,
-    /// The stacks, where the caller knows them better than [`stack::compute`] and [`stack::traversal_reserve`].
+    /// The stack sizes, if the caller knows better ones than those of [`stack::compute`] and
+    /// [`stack::traversal_reserve`].
     pub stack: Option<StackSizes>,
 }
 
@@ -55,7 +56,7 @@ impl Pipeline {
         check_groups(context, groups, options)?;
         link.check(context, options)?;
         let count = u32::try_from(groups.len())
-            .map_err(|_| Error::invalid("a pipeline", "more than 2^32 groups", "link fewer groups"))?;
+            .map_err(|_| Error::invalid("a pipeline", "it has more than 2^32 program groups", "link fewer groups"))?;
         let raw_groups: Vec<_> = groups.iter().map(ProgramGroup::raw).collect();
         let raw_options = options.raw(context)?;
         let link_options = sys::OptixPipelineLinkOptions { max_trace_depth: link.depths.trace };
@@ -71,7 +72,7 @@ impl Pipeline {
             table.pipeline_create(context.raw(), options, &link_options, groups, count, log_text, log_size, &mut raw)
         };
         context.check_compile("optixPipelineCreate", result, &log)?;
-        // From here on dropping `inner` destroys the pipeline.
+        // From here on, dropping `inner` destroys the pipeline.
         let mut inner = Inner {
             raw,
             stack: StackSizes::default(),

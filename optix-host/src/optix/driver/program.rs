@@ -22,7 +22,7 @@ pub struct Entry<'a> {
     pub name: &'a str,
 }
 
-/// What intersects the primitives of a hit group.
+/// The intersection program of a hit group.
 #[derive(Clone, Copy, Debug)]
 pub enum Intersection<'a> {
     /// A program of the application, for custom primitives.
@@ -36,7 +36,7 @@ pub enum Intersection<'a> {
 pub enum Programs<'a> {
     /// A ray-generation program.
     Raygen(Entry<'a>),
-    /// A miss program, or none: then a miss does nothing.
+    /// A miss program. If there is none, a miss does nothing.
     Miss(Option<Entry<'a>>),
     /// An exception program.
     Exception(Entry<'a>),
@@ -51,9 +51,9 @@ pub enum Programs<'a> {
     },
     /// Callables that share a record, at least one.
     Callables {
-        /// Called directly.
+        /// The direct callable.
         direct: Option<Entry<'a>>,
-        /// Called through the scheduler.
+        /// The continuation callable, which OptiX's scheduler calls.
         continuation: Option<Entry<'a>>,
     },
 }

@@ -2,7 +2,7 @@
 
 use super::sys::OptixResult;
 
-/// The likely way out of an OptiX call that failed so.
+/// What to do about an OptiX call that failed with this result.
 pub(super) fn optix_remedy(result: OptixResult) -> &'static str {
     match result {
         OptixResult::INVALID_VALUE => {
@@ -87,7 +87,7 @@ pub(super) fn optix_remedy(result: OptixResult) -> &'static str {
     }
 }
 
-/// The likely way out of a CUDA call that failed so. Values of `CUresult` are fixed by the CUDA driver API.
+/// What to do about a CUDA call that failed with this code. The CUDA driver API fixes the values of `CUresult`.
 pub(crate) fn cuda_remedy(code: i32) -> &'static str {
     match code {
         2 => "free GPU memory, or choose a GPU with more",

@@ -9,8 +9,8 @@ use super::context::Context;
 use super::sys::{self, OPTIX_SBT_RECORD_ALIGNMENT, OPTIX_SBT_RECORD_HEADER_SIZE};
 use crate::error::DriverError as Error;
 
-/// Records of one section, packed on the host: each a 32-byte header from
-/// [`ProgramGroup::pack_header`](super::ProgramGroup::pack_header) and the application's data behind it.
+/// The records of a section, packed on the host. Each consists of a 32-byte header from
+/// [`ProgramGroup::pack_header`](super::ProgramGroup::pack_header) and the application's data.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SbtSection<'a> {
     /// The records, one after another.
@@ -22,15 +22,15 @@ pub struct SbtSection<'a> {
 /// The sections of a table.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SbtSections<'a> {
-    /// At least one; a launch runs one of them.
+    /// The ray-generation records, at least one. A launch runs one of them.
     pub raygen: SbtSection<'a>,
-    /// At most one. Without it the driver's own program handles exceptions.
+    /// The exception record, at most one. Without it, the driver's own program handles exceptions.
     pub exception: SbtSection<'a>,
-    /// Chosen by the miss index of a trace.
+    /// The miss records. The miss index of a trace chooses one of them.
     pub miss: SbtSection<'a>,
-    /// Chosen by the formula of guide 7.3.
+    /// The hit-group records. The formula of guide 7.3 chooses one of them.
     pub hitgroup: SbtSection<'a>,
-    /// Chosen by the index of a call.
+    /// The callables' records. The index of a call chooses one of them.
     pub callables: SbtSection<'a>,
 }
 
@@ -99,7 +99,7 @@ impl ShaderBindingTable {
     }
 }
 
-/// Where a section lies in the buffer.
+/// The place of a section in the buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Place {
     offset: usize,
@@ -113,7 +113,7 @@ impl Place {
     }
 }
 
-/// All sections behind one another, each aligned to 16 bytes: raygen, exception, miss, hitgroup, callables.
+/// All sections one after the other, each aligned to 16 bytes: raygen, exception, miss, hitgroup, callables.
 #[derive(Debug)]
 struct Layout {
     places: [Place; 5],
@@ -136,7 +136,8 @@ impl Layout {
             // Strides are multiples of 16, so the next section is aligned as this one is.
             size = size.checked_add(section.bytes.len()).ok_or_else(|| too_large(name))?;
         }
-        let invalid = |what, problem| Err(Error::invalid(what, problem, "pack one record a program to run"));
+        let invalid =
+            |what, problem| Err(Error::invalid(what, problem, "pack one record for each program that is to run"));
         if places[0].count == 0 {
             return invalid(named[0].0, "it has no record");
         }
@@ -167,7 +168,7 @@ impl Layout {
 
     fn raw(&self, base: u64) -> sys::OptixShaderBindingTable {
         let [raygen, exception, miss, hitgroup, callables] = self.places;
-        // OptiX wants these two also of a pipeline that traces no rays; nothing reads them there.
+        // OptiX asks for these two even if a pipeline traces no rays. Nothing reads them then.
         let [miss, hitgroup] = [miss, hitgroup].map(|place| if place.count == 0 { raygen } else { place });
         sys::OptixShaderBindingTable {
             raygen_record: raygen.address(base),

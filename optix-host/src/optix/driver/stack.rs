@@ -1,4 +1,4 @@
-//! Stack sizes (guide 6.8): pure functions from what each program needs to what the pipeline is given.
+//! Stack sizes (guide 6.8): pure functions that compute what a pipeline is given from what its programs need.
 //!
 //! All sizes are bytes. A sum beyond `u32` saturates; the driver refuses such a size.
 
@@ -22,7 +22,7 @@ pub struct GroupStack {
 }
 
 impl GroupStack {
-    /// The larger of each field.
+    /// The maximum of each field.
     pub fn max(self, other: Self) -> Self {
         Self {
             css_rg: self.css_rg.max(other.css_rg),
@@ -56,7 +56,7 @@ pub struct CallDepths {
     pub direct_callables_from_state: u32,
 }
 
-/// What a pipeline is given.
+/// The stack sizes of a pipeline.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StackSizes {
     /// Direct stack of callables called from any-hit and intersection programs.

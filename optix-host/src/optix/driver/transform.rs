@@ -37,7 +37,7 @@ impl Transform {
         Self::new(child, Type::STATIC_TRANSFORM, bytes, size_of::<sys::OptixStaticTransform>())
     }
 
-    /// Row-major 3x4 matrices, one a motion key, interpolated element by element.
+    /// Row-major 3x4 matrices, one for each motion key, interpolated element by element.
     ///
     /// # Errors
     /// [`Error::Invalid`] for motion options that don't fit the keys.
@@ -45,8 +45,9 @@ impl Transform {
         Self::motion(child.into(), Type::MATRIX_MOTION_TRANSFORM, keys.len(), keys.as_flattened(), motion)
     }
 
-    /// Scale with shear and pivot, rotation, translation, one a motion key, interpolated separately (guide 5.10.5). The
-    /// order of the 16 numbers is that of [`sys::OptixSRTData`]; the quaternions must have unit length.
+    /// Scale with shear and pivot, rotation and translation for each motion key, which are interpolated separately
+    /// (guide 5.10.5). The order of the 16 numbers is that of [`sys::OptixSRTData`]; the quaternions must have unit
+    /// length.
     ///
     /// # Errors
     /// [`Error::Invalid`] for motion options that don't fit the keys.
@@ -57,7 +58,7 @@ impl Transform {
     fn motion(child: Traversable, kind: Type, keys: usize, floats: &[f32], motion: &Motion) -> Result<Self, Error> {
         if keys != usize::from(motion.keys) {
             let problem = format!("{keys} keys are given, the motion has {}", motion.keys);
-            return Err(Error::invalid("a motion transform", problem, "give one entry a motion key"));
+            return Err(Error::invalid("a motion transform", problem, "give an entry for each motion key"));
         }
         let raw = motion.raw()?;
         let mut bytes = Bytes::new(&child);

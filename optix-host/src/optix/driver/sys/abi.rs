@@ -1,8 +1,8 @@
-//! Which ABI versions are known, and asking the driver for one.
+//! The known ABI versions, and how the driver is asked for one.
 //!
-//! A driver keeps serving the ABI versions of older SDKs, so asking for the newest known one first and then for older
-//! ones finds the best that both sides know. An older version is listed only where its table and structures are known
-//! from the public headers of that release (NVIDIA/optix-dev, tags v7.7.0 to v9.0.0). Between ABI 84 and 105:
+//! A driver also serves the ABI versions of older SDKs. So the newest known version is asked for first and then older
+//! ones, which finds the best that both sides know. An older version is listed only if its table and structures are
+//! known from the public headers of that release (NVIDIA/optix-dev, tags v7.7.0 to v9.0.0). Between ABI 84 and 105:
 //!
 //! - the table grew by placeholders in ABI 93 and by two cluster functions in the middle in ABI 105, so slots from 38 on
 //!   moved; the signatures of the functions used here did not change;

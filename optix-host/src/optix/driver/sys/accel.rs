@@ -36,7 +36,7 @@ abi_consts! {
         MATRIX_FLOAT12 = 8673,
     }
 
-    /// A set of bits, one entry a record (guide 5.1).
+    /// A set of bits, with one entry for each record (guide 5.1).
     OptixGeometryFlags: u32 {
         NONE = 0,
         DISABLE_ANYHIT = 1,
@@ -220,7 +220,7 @@ abi_structs! {
     }
 }
 
-/// The input of a build; which member counts is told by [`OptixBuildInputType`].
+/// The input of a build. [`OptixBuildInputType`] tells which member counts.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub union OptixBuildInputUnion {
