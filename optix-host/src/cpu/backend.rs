@@ -1,7 +1,7 @@
 //! The CPU as a backend: it turns the scene's description into the kernel's structures and runs launches.
 
+use super::executor::{self, Callables, Launch, Reached};
 use super::kernel::{Accel, Gas, Ias, Instance};
-use super::machine::{self, Callables, Job, Reached};
 use super::memory::CpuMemory;
 use crate::Result;
 use crate::backend::{Backend, Linked, Running, next_device_id};
@@ -142,8 +142,8 @@ impl Linked for CpuPipeline {
         let mut reached = reached(self.kept.iter().chain(kept));
         reached.memory.name(self.plan.description.params.fields, params);
         reached.callables = self.callables.clone();
-        let job = Job::new(&self.plan, &self.sbt, params, reached, raygen, dimensions, self.checked);
-        let complaints = machine::run(job)?;
+        let launch = Launch::new(&self.plan, &self.sbt, params, reached, raygen, dimensions, self.checked);
+        let complaints = executor::run(launch)?;
         self.complaints.lock().unwrap_or_else(PoisonError::into_inner).extend(complaints);
         Ok(Box::new(Done))
     }

@@ -5,9 +5,9 @@
 //! device does. Results do not depend on the number of threads.
 
 mod backend;
+mod executor;
 #[allow(missing_docs)]
 pub mod kernel;
-mod machine;
 mod memory;
 
 pub(crate) use backend::CpuBackend;

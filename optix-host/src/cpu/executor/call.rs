@@ -1,6 +1,6 @@
 //! Program calls and trace calls.
 
-use super::Job;
+use super::Launch;
 use super::checks::{self, Watch};
 use super::handle::{self, rows};
 use super::stack::{Left, Stack};
@@ -19,7 +19,7 @@ use optix_device_rs::host::{
 use optix_device_rs::prelude::{Decision, Ray};
 use optix_device_rs::words::WordBuffer;
 
-/// Ends the launch index: a program uses what it kept from another launch.
+/// Ends the launch index, because a program uses something that it kept from another launch.
 #[cold]
 fn not_held(what: &str) -> ! {
     fail(
@@ -30,25 +30,25 @@ fn not_held(what: &str) -> ! {
     )
 }
 
-/// What all program calls of one trace share.
+/// What all program calls of one trace call share.
 #[derive(Clone, Copy)]
 pub(super) struct Call<'c> {
-    pub job: &'c Job<'c>,
+    pub launch: &'c Launch<'c>,
     index: UVec3,
-    /// Trace calls around this one.
+    /// The number of trace calls that this one is nested in.
     depth: u32,
-    /// Callables around this one, since the last trace call.
+    /// The number of callables that this one is nested in, within the innermost trace call.
     callables: u32,
     stack: Stack,
-    /// The program that runs, for messages.
+    /// The entry name of the program that runs, for messages.
     running: &'c Cell<&'static str>,
     payload: &'c Cell<WordBuffer>,
-    /// In checked mode, what is known of the payload.
+    /// In the checked mode, what is known of the payload.
     watch: Option<&'c Watch>,
 }
 
 /// What a program sees of its ray and hit.
-pub(super) struct Seen {
+pub(super) struct RayAndHit {
     /// With the `tmax` that the program sees.
     pub ray: Ray,
     /// Origin and direction in object space, for programs that may ask.
@@ -56,9 +56,9 @@ pub(super) struct Seen {
     pub hit: HitState,
 }
 
-impl Seen {
+impl RayAndHit {
     const NO_OBJECT: (Vec3, Vec3) = (Vec3::ZERO, Vec3::ZERO);
-    /// For programs without a ray.
+    /// For programs that have no ray.
     const NOTHING: Self = {
         let flags = optix_device_rs::prelude::RayFlags::NONE;
         let ray = Ray { origin: Vec3::ZERO, direction: Vec3::ZERO, tmin: 0.0, tmax: 0.0, time: 0.0, mask: 0, flags };
@@ -71,17 +71,22 @@ impl Seen {
 }
 
 impl<'c> Call<'c> {
-    /// Inside of no other program.
-    fn root(job: &'c Job<'c>, index: UVec3, running: &'c Cell<&'static str>, payload: &'c Cell<WordBuffer>) -> Self {
+    /// A call that is not nested in another program's.
+    fn root(
+        launch: &'c Launch<'c>,
+        index: UVec3,
+        running: &'c Cell<&'static str>,
+        payload: &'c Cell<WordBuffer>,
+    ) -> Self {
         let stack = Stack::of_this_thread();
-        Self { job, index, depth: 0, callables: 0, stack, running, payload, watch: None }
+        Self { launch, index, depth: 0, callables: 0, stack, running, payload, watch: None }
     }
 
-    /// Ends the launch index unless there is stack for another program.
+    /// Ends the launch index if the stack does not have room for another program.
     fn check_stack(&self) {
         #[cold]
-        fn overflow(job: &Job<'_>) -> ! {
-            if job.exceptions.stack_overflow {
+        fn overflow(launch: &Launch<'_>) -> ! {
+            if launch.exceptions.stack_overflow {
                 // SAFETY: it has no details.
                 unsafe { throw(ExceptionState::STACK_OVERFLOW) };
             }
@@ -93,33 +98,33 @@ impl<'c> Call<'c> {
         }
         match self.stack.left() {
             Left::Enough => {}
-            Left::Nothing => overflow(self.job),
+            Left::Nothing => overflow(self.launch),
             Left::Elsewhere => elsewhere(),
         }
     }
 
     /// Runs the launch's ray-generation program for a launch index.
-    pub fn raygen(job: &'c Job<'c>, index: UVec3, running: &'c Cell<&'static str>) {
-        // It has no payload, and the frame needs one.
+    pub fn raygen(launch: &'c Launch<'c>, index: UVec3, running: &'c Cell<&'static str>) {
+        // A ray-generation program has no payload, but the frame needs one.
         let payload = Cell::new(WordBuffer::ZERO);
-        let call = Call::root(job, index, running, &payload);
-        // A program may have made this launch.
+        let call = Call::root(launch, index, running, &payload);
+        // A program may have made this launch, so the stack may be used already.
         call.check_stack();
-        let entry = &job.description.raygen[job.raygen].entry;
-        let _ = call.run(entry, &job.sbt.raygen, job.raygen, Seen::NOTHING, &call);
+        let entry = &launch.description.raygen[launch.raygen].entry;
+        let _ = call.run(entry, &launch.sbt.raygen, launch.raygen, RayAndHit::NOTHING, &call);
     }
 
-    /// Tells the exception program, if there is one; says whether there is.
+    /// Runs the exception program, if there is one. Returns whether there is.
     pub fn exception(
-        job: &'c Job<'c>,
+        launch: &'c Launch<'c>,
         index: UVec3,
         running: &'c Cell<&'static str>,
         exception: &ExceptionState,
     ) -> bool {
-        let Some(program) = &job.description.exceptions.program else { return false };
+        let Some(program) = &launch.description.exceptions.program else { return false };
         let payload = Cell::new(WordBuffer::ZERO);
-        let call = Call::root(job, index, running, &payload);
-        let _ = call.run_with(&program.entry, &job.sbt.exception, 0, Seen::NOTHING, exception, &call);
+        let call = Call::root(launch, index, running, &payload);
+        let _ = call.run_with(&program.entry, &launch.sbt.exception, 0, RayAndHit::NOTHING, exception, &call);
         true
     }
 
@@ -130,10 +135,10 @@ impl<'c> Call<'c> {
         entry: &Entry,
         section: &Section<K>,
         record: usize,
-        seen: Seen,
+        ray_and_hit: RayAndHit,
         executor: &dyn Executor,
     ) -> Decision {
-        self.run_with(entry, section, record, seen, &ExceptionState::NONE, executor)
+        self.run_with(entry, section, record, ray_and_hit, &ExceptionState::NONE, executor)
     }
 
     #[inline]
@@ -142,21 +147,21 @@ impl<'c> Call<'c> {
         entry: &Entry,
         section: &Section<K>,
         record: usize,
-        seen: Seen,
+        ray_and_hit: RayAndHit,
         exception: &ExceptionState,
         executor: &dyn Executor,
     ) -> Decision {
         let frame = Frame {
             executor,
             launch_index: self.index,
-            launch_dimensions: self.job.dimensions,
-            params: NonNull::from(&self.job.params[..]).cast(),
+            launch_dimensions: self.launch.dimensions,
+            params: NonNull::from(&self.launch.params[..]).cast(),
             record: NonNull::from(section.data(record)).cast(),
             payload: self.payload,
             watch: self.watch.map(|watch| watch as &dyn PayloadWatch),
-            ray: seen.ray,
-            object_ray: seen.object_ray,
-            hit: seen.hit,
+            ray: ray_and_hit.ray,
+            object_ray: ray_and_hit.object_ray,
+            hit: ray_and_hit.hit,
             exception,
             turn: Turn::default(),
         };
@@ -164,7 +169,7 @@ impl<'c> Call<'c> {
         // SAFETY: the parameters were lowered from `P::Params` of the pipeline that the entry belongs to, and the section's
         // record from the record type that `pipeline!` tied to the program; both are aligned to 16 and outlive the call.
         let decision = unsafe { entry.run(&frame) };
-        // Of a program that caught what ended the launch index.
+        // If the program caught the unwinding that ended its launch index, the index ends again here.
         goes_on();
         self.running.set(caller);
         decision
@@ -172,20 +177,20 @@ impl<'c> Call<'c> {
 
     /// Traces a ray; the programs find the payload in `payload` and leave it there.
     pub fn trace(&self, trace: &TraceCall, payload: &mut WordBuffer) {
-        let job = self.job;
+        let launch = self.launch;
         let depth = self.depth + 1;
-        if depth > job.depths.trace {
-            if job.exceptions.trace_depth {
+        if depth > launch.depths.trace {
+            if launch.exceptions.trace_depth {
                 // SAFETY: it has no details.
                 unsafe { throw(ExceptionState { code: TRACE_DEPTH_EXCEEDED, ..ExceptionState::NONE }) };
             }
             fail(
                 Rule::TraceDepth,
-                format!("trace calls nest deeper than the pipeline's trace depth of {}", job.depths.trace),
+                format!("trace calls nest deeper than the pipeline's trace depth of {}", launch.depths.trace),
             );
         }
         self.check_stack();
-        let watch = job.checked.then(|| checks::trace(job, trace));
+        let watch = launch.checked.then(|| checks::trace(launch, trace));
         let payload = Cell::from_mut(payload);
         let call = Call { depth, callables: 0, payload, watch: watch.as_ref(), ..*self };
         call.find(trace);
@@ -194,10 +199,10 @@ impl<'c> Call<'c> {
         }
     }
 
-    /// Calls a callable, which finds its arguments in `words` and leaves its result there.
+    /// Calls a callable. It finds its arguments in `words` and leaves its result there.
     pub fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
-        let job = self.job;
-        let Some(index) = job.reached.callables.get(call.number) else {
+        let launch = self.launch;
+        let Some(index) = launch.reached.callables.get(call.number) else {
             fail(
                 Rule::CallableRecord,
                 "a callable is called that the scene of this launch did not have when the pipeline was built: it was kept from another \
@@ -205,7 +210,7 @@ impl<'c> Call<'c> {
                     .into(),
             )
         };
-        let callable = &job.description.callables[job.sbt.callables.programs()[index].program];
+        let callable = &launch.description.callables[launch.sbt.callables.programs()[index].program];
         if (callable.continuation, callable.signature) != (call.continuation, call.signature) {
             fail(
                 Rule::CallableSignature,
@@ -213,21 +218,21 @@ impl<'c> Call<'c> {
             );
         }
         let callables = self.callables + 1;
-        if callables > job.depths.callables() {
+        if callables > launch.depths.callables() {
             fail(
                 Rule::CallableDepth,
-                format!("callables call each other deeper than the pipeline's {} levels", job.depths.callables()),
+                format!("callables call each other deeper than the pipeline's {} levels", launch.depths.callables()),
             );
         }
         self.check_stack();
         let callee = Call { callables, payload: Cell::from_mut(words), watch: None, ..*self };
-        let _ = callee.run(&callable.entry, &job.sbt.callables, index, Seen::NOTHING, &callee);
+        let _ = callee.run(&callable.entry, &launch.sbt.callables, index, RayAndHit::NOTHING, &callee);
     }
 
-    /// The programs of a hit record, one of which is to run.
+    /// The programs of a hit record. One of them is about to run.
     #[inline]
     pub fn hit_programs(&self, sbt_index: u32) -> &'c HitPrograms {
-        let (ray, programs) = self.job.hit_programs(sbt_index);
+        let (ray, programs) = self.launch.hit_programs(sbt_index);
         if let Some(watch) = self.watch {
             watch.runs(ray);
         }
@@ -236,8 +241,8 @@ impl<'c> Call<'c> {
 
     /// Traverses, and runs the closest-hit or the miss program.
     fn find(&self, trace: &TraceCall) {
-        // Nothing moves here, and where nothing does rays have no time (guide 13.5).
-        let (job, ray) = (self.job, Ray { time: 0.0, ..trace.ray });
+        // Without motion, rays have no time (guide 13.5).
+        let (launch, ray) = (self.launch, Ray { time: 0.0, ..trace.ray });
         let query = RayQuery {
             origin: ray.origin.to_array(),
             direction: ray.direction.to_array(),
@@ -251,15 +256,15 @@ impl<'c> Call<'c> {
         };
         let root = match trace.traversable {
             0 => None,
-            handle => Some(job.reached.traced.get(handle).unwrap_or_else(|| not_held("traversable"))),
+            handle => Some(launch.reached.traced.get(handle).unwrap_or_else(|| not_held("traversable"))),
         };
         let Some(hit) = kernel::trace(root, &query, &mut Traversal { call: *self, ray }) else {
-            if let Some(program) = &job.ray(trace.miss_index).miss {
+            if let Some(program) = &launch.ray(trace.miss_index).miss {
                 if let Some(watch) = self.watch {
                     watch.runs(trace.miss_index as usize);
                 }
                 let miss = trace.miss_index as usize;
-                let _ = self.run(&program.entry, &job.sbt.miss, miss, Seen::without_hit(ray), self);
+                let _ = self.run(&program.entry, &launch.sbt.miss, miss, RayAndHit::without_hit(ray), self);
             }
             return;
         };
@@ -276,13 +281,14 @@ impl<'c> Call<'c> {
                 attributes: hit.attributes,
             };
             let executor = AtHit { call: self, path: &hit.path, vertices: || hit.triangle_vertices() };
-            let seen = Seen { ray: Ray { tmax: hit.t, ..ray }, object_ray: Seen::NO_OBJECT, hit: state };
-            let _ = self.run(entry, &job.sbt.hit, hit.sbt_index as usize, seen, &executor);
+            let ray_and_hit =
+                RayAndHit { ray: Ray { tmax: hit.t, ..ray }, object_ray: RayAndHit::NO_OBJECT, hit: state };
+            let _ = self.run(entry, &launch.sbt.hit, hit.sbt_index as usize, ray_and_hit, &executor);
         }
     }
 }
 
-/// Programs that have no hit.
+/// What programs without a hit may ask.
 impl Executor for Call<'_> {
     fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
         Call::trace(self, call, payload);
@@ -309,7 +315,7 @@ impl Executor for Call<'_> {
         fail(Rule::Kind, "there is no primitive, so no transform list".into())
     }
     unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
-        let placed = match self.job.reached.read.get(ias) {
+        let placed = match self.launch.reached.read.get(ias) {
             Some(Accel::Ias(ias)) => ias.instances().get(index as usize),
             _ => None,
         };
@@ -328,7 +334,7 @@ impl Executor for Call<'_> {
         }
     }
     unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3] {
-        let vertices = match self.job.reached.read.get(gas) {
+        let vertices = match self.launch.reached.read.get(gas) {
             Some(Accel::Gas(gas)) => gas.triangle_vertices(sbt_gas_index, primitive),
             _ => not_held("table of triangles"),
         };

@@ -1,13 +1,14 @@
-//! Handles of instances: their addresses, which the owner of a launch's structures keeps in place.
+//! Handles of instances. A handle is the instance's address, which stays the same because the launch keeps the owner of
+//! its structures.
 
 use crate::cpu::kernel::Placed;
 
-/// The handle of an instance; for the structure that it places, a key that is compared only.
+/// The handle of an instance. For the structure that an instance places, the handle is only compared.
 pub(super) fn of<T>(target: &T) -> u64 {
     core::ptr::from_ref(target).expose_provenance() as u64
 }
 
-/// The instance; none for handle 0.
+/// The instance with this handle. `None` for handle 0.
 ///
 /// # Safety
 /// The handle is 0 or of an instance that outlives `'a`.

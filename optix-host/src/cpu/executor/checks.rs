@@ -1,6 +1,6 @@
-//! How the checked mode finds out what the OptiX guide calls undefined or leaves to the application.
+//! The checks of the checked mode: they find what the OptiX guide calls undefined, or leaves to the application.
 
-use super::Job;
+use super::Launch;
 use crate::cpu::kernel::{Aabb, InstancePath, Ray, Site};
 use core::cell::RefCell;
 use glam::Vec3;
@@ -8,8 +8,8 @@ use optix_device_rs::host::end::fail;
 use optix_device_rs::host::{PayloadDescription, PayloadWatch, Rule, TraceCall};
 use optix_device_rs::spawn::gamma;
 
-/// Checks the arguments of a trace call; gives what is known of its payload.
-pub(super) fn trace(job: &Job<'_>, trace: &TraceCall) -> Watch {
+/// Checks the arguments of a trace call. Returns what is known of its payload.
+pub(super) fn trace(launch: &Launch<'_>, trace: &TraceCall) -> Watch {
     let ray = &trace.ray;
     for (what, vector) in [("origin", ray.origin), ("direction", ray.direction)] {
         if !vector.is_finite() {
@@ -29,16 +29,17 @@ pub(super) fn trace(job: &Job<'_>, trace: &TraceCall) -> Watch {
     if ray.tmin < 0.0 {
         fail(Rule::Interval, format!("tmin is negative: {}", ray.tmin));
     }
-    // Exclusive among themselves: four about any-hit, two about culling by face.
+    // Two groups of flags, of which a ray may have one each: the four about any-hit programs, and the two about culling
+    // by face.
     for (group, rule) in [(1 | 2 | 64 | 128, Rule::AnyHitFlags), (16 | 32, Rule::CullFlags)] {
         if (ray.flags.bits() & group).count_ones() > 1 {
             fail(rule, format!("the ray flags {:#x} have two that exclude each other", ray.flags.bits()));
         }
     }
-    Watch::new(job.ray(trace.miss_index).payload, trace)
+    Watch::new(launch.ray(trace.miss_index).payload, trace)
 }
 
-/// Ends the launch index of a ray that is none in the object space of an instance.
+/// Ends the launch index, because the ray is not a valid ray in the object space of an instance.
 pub(super) fn no_ray(path: &InstancePath<'_>, object_ray: &Ray) -> ! {
     let (origin, direction) = (Vec3::from_array(object_ray.origin), Vec3::from_array(object_ray.direction));
     let what = if !origin.is_finite() {
@@ -58,7 +59,7 @@ pub(super) fn no_ray(path: &InstancePath<'_>, object_ray: &Ray) -> ! {
     )
 }
 
-/// Checks a report at a primitive, while hits up to `tmax` count.
+/// Checks a hit that is reported at a primitive, while the ray's interval ends at `tmax`.
 pub(super) fn report(site: &Site<'_>, tmax: f32, t: f32, kind: u8) {
     if kind > 127 {
         fail(Rule::HitKind, format!("hit kind {kind} is reported: 128 to 255 are of built-in primitives"));
@@ -66,14 +67,14 @@ pub(super) fn report(site: &Site<'_>, tmax: f32, t: f32, kind: u8) {
     if t.is_nan() {
         fail(Rule::HitNan, "a hit is reported at t = NaN".into());
     }
-    // A report outside of the interval is lawful, and no hit.
+    // Reporting outside of the interval is allowed, but is no hit.
     if (site.query.tmin..=tmax).contains(&t)
         && let Some(Aabb { min, max }) = site.gas.custom_box(site.sbt_gas_index, site.primitive_index)
     {
         let ray = &site.object_ray;
         let at: [f64; 3] = core::array::from_fn(|a| {
             let (origin, way) = (f64::from(ray.origin[a]), f64::from(t) * f64::from(ray.direction[a]));
-            // As far as roundings of the program's own arithmetic may move it.
+            // Rounding in the program's own arithmetic may move the hit by this much.
             let slack = f64::from(gamma(64)) * (origin.abs() + way.abs());
             (origin + way).clamp(f64::from(min[a]) - slack, f64::from(max[a]) + slack) - (origin + way)
         });
@@ -93,7 +94,7 @@ pub(super) struct Watch {
     payload: PayloadDescription,
     /// The payload type of the trace call: the bits of `OptixPayloadTypeID`.
     payload_type: u32,
-    /// Per field: whether the caller or a program has written it.
+    /// For each field, whether the caller or a program has written it.
     written: RefCell<Vec<bool>>,
 }
 
@@ -119,7 +120,7 @@ impl Watch {
         }
     }
 
-    /// The trace call returns, and its caller takes these fields.
+    /// The trace call returns, and its caller reads these fields.
     pub fn returns(&self, fields: &'static [usize]) {
         if let Some(field) = self.unwritten(fields) {
             fail(

@@ -1,27 +1,28 @@
-//! How much of its stack a thread has left: programs that call each other on the CPU use the stack of the thread that runs
-//! them, and one that ends in the middle would end the process.
+//! How much of its stack a thread has left. On the CPU, programs that call each other use the stack of the thread that
+//! runs them, and the process would end if that overflowed.
 
 use std::cell::Cell;
 
-/// Left to the program that is called last, and to unwinding.
+/// The bytes that are left to the program that is called last, and to unwinding.
 const RESERVE: usize = 256 << 10;
-/// The same on small stacks, where a quarter is less: a program that calls another takes up to some kilobytes before it is asked again.
+/// The least reserve. On small stacks a quarter of the stack is reserved, but no less than this, since a program that
+/// calls another uses up to some kilobytes before the stack is checked again.
 const LEAST_RESERVE: usize = 48 << 10;
 
-/// The addresses that calls on this thread may reach.
+/// The range of addresses in which calls on this thread may run.
 #[derive(Clone, Copy)]
 pub(super) struct Stack {
     end: usize,
     begin: usize,
 }
 
-/// What is left of a stack.
+/// Whether a stack has room for another call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Left {
     Enough,
-    /// The stack goes no deeper.
+    /// The stack is used up.
     Nothing,
-    /// A program has gone to another stack than its thread's, as the crate `stacker` does, whose end is not known.
+    /// The program runs on another stack than its thread's, as with the crate `stacker`. Its end is not known.
     Elsewhere,
 }
 
@@ -39,7 +40,8 @@ impl Stack {
         })
     }
 
-    /// How much is left. Below the end by more than the stack's reserve may be another stack, or a frame that large.
+    /// Whether there is room. An address further below the end than the reserve is on another stack, or in a frame that
+    /// is as large as that.
     #[inline]
     pub fn left(self) -> Left {
         let here = here();
@@ -51,7 +53,7 @@ impl Stack {
     }
 }
 
-/// An address of the innermost frame.
+/// An address in the innermost frame.
 #[inline]
 fn here() -> usize {
     let byte = 0u8;
@@ -79,7 +81,7 @@ fn bounds() -> (usize, usize) {
     assumed()
 }
 
-/// Half of what Rust gives its threads, from here on; where the stack begins is not known.
+/// Half of the stack that Rust gives its threads, from the current frame on. Where the stack begins is not known.
 fn assumed() -> (usize, usize) {
     let low = here().saturating_sub(1 << 20);
     (low, usize::MAX - low)

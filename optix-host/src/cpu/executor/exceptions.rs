@@ -1,20 +1,20 @@
-//! Exceptions (guide 13.14): what is said of those that no exception program is told of.
+//! Reports of exceptions (guide 13.14), if the pipeline has no exception program.
 
-use super::Job;
+use super::Launch;
 use glam::UVec3;
 use optix_device_rs::exception::TRACE_DEPTH_EXCEEDED;
 use optix_device_rs::host::ExceptionState;
 use std::sync::{Mutex, PoisonError};
 
-/// As many as OptiX prints.
+/// OptiX prints as many.
 const REPORTED: usize = 5;
 
-/// The first exceptions of a launch, by launch index, that no program was told of.
+/// The first exceptions of a launch, in the order of launch indices, that no program was told of.
 #[derive(Default)]
 pub(super) struct Unhandled(Mutex<Vec<([u32; 3], String)>>);
 
 impl Unhandled {
-    pub fn add(&self, job: &Job<'_>, index: UVec3, program: &str, exception: &ExceptionState) {
+    pub fn add(&self, launch: &Launch<'_>, index: UVec3, program: &str, exception: &ExceptionState) {
         let [x, y, z] = index.to_array();
         let mut reports = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let at = reports.partition_point(|(other, _)| *other < [z, y, x]);
@@ -22,7 +22,7 @@ impl Unhandled {
             return;
         }
         let line = exception.line.as_ref().map_or(String::new(), |line| format!(" ({})", line.to_string_lossy()));
-        let text = format!("{} at launch index {:?}, by {program}{line}", describe(job, exception), [x, y, z]);
+        let text = format!("{} at launch index {:?}, by {program}{line}", describe(launch, exception), [x, y, z]);
         reports.insert(at, ([z, y, x], text));
         reports.truncate(REPORTED);
     }
@@ -33,8 +33,8 @@ impl Unhandled {
     }
 }
 
-fn describe(job: &Job<'_>, exception: &ExceptionState) -> String {
-    let exceptions = &job.description.exceptions;
+fn describe(launch: &Launch<'_>, exception: &ExceptionState) -> String {
+    let exceptions = &launch.description.exceptions;
     let Ok(code) = u32::try_from(exception.code) else {
         let what = match exception.code {
             TRACE_DEPTH_EXCEEDED => "trace depth exceeded",

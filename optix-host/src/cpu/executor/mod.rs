@@ -34,15 +34,16 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Arc, Mutex};
 
-/// Launch indices that a thread takes at a time: few, since one may be a whole pixel's paths, and the last chunk of a
-/// launch keeps the other threads waiting; enough that taking them costs nothing beside one ray each.
+/// The number of launch indices that a thread takes at a time. It is small, because one index may be all paths of a
+/// pixel, and the other threads wait for the last chunk of a launch. It is large enough that taking a chunk costs
+/// nothing beside a ray for each index.
 const CHUNK: u64 = 16;
 
 /// What the programs of a launch may use, by the numbers in their views.
 #[derive(Default)]
 pub(super) struct Reached<'a> {
     pub memory: Reach,
-    /// Structures that rays are traced against: of the table's scene.
+    /// Structures that rays are traced against. They belong to the table's scene.
     pub traced: ByHandle<&'a Accel>,
     /// Structures that programs read by number.
     pub read: ByHandle<&'a Accel>,
@@ -67,8 +68,8 @@ impl Callables {
     }
 }
 
-/// A launch.
-pub(super) struct Job<'a> {
+/// A launch, while its programs run.
+pub(super) struct Launch<'a> {
     description: &'a PipelineDescription,
     depths: Depths,
     exceptions: Exceptions,
@@ -80,11 +81,11 @@ pub(super) struct Job<'a> {
     dimensions: UVec3,
     /// Whether programs are checked for what the guide leaves undefined; see [`checks`].
     checked: bool,
-    /// Exceptions of a pipeline without an exception program.
+    /// The exceptions, if the pipeline has no exception program.
     unhandled: Unhandled,
 }
 
-impl<'a> Job<'a> {
+impl<'a> Launch<'a> {
     pub fn new(
         plan: &'a Plan,
         sbt: &'a ShaderBindingTable,
@@ -102,7 +103,7 @@ impl<'a> Job<'a> {
         Self { description, depths, exceptions, sbt, params: copy, reached, raygen, dimensions, checked, unhandled }
     }
 
-    /// The ray type whose miss record this is.
+    /// The ray type that a miss record belongs to.
     #[inline]
     fn ray(&self, miss_index: u32) -> &RayDescription {
         match self.description.rays.get(miss_index as usize) {
@@ -114,7 +115,8 @@ impl<'a> Job<'a> {
         }
     }
 
-    /// The ray type and the programs of a hit record. Without such a record, the program that made the hit ends the launch.
+    /// The ray type and the programs of a hit record. If there is no such record, the program that caused the hit ends
+    /// the launch.
     #[inline]
     fn hit_programs(&self, sbt_index: u32) -> (usize, &'a HitPrograms) {
         match self.sbt.hit.programs().get(sbt_index as usize) {
@@ -130,14 +132,14 @@ impl<'a> Job<'a> {
     }
 }
 
-/// Runs the launch on all threads of the current pool. What comes back are the exceptions that no program was told of.
-pub(super) fn run(job: Job<'_>) -> Result<Vec<String>> {
-    run_all(&job)?;
-    Ok(job.unhandled.reports())
+/// Runs the launch on all threads of the current pool. Returns the exceptions that no program was told of.
+pub(super) fn run(launch: Launch<'_>) -> Result<Vec<String>> {
+    run_all(&launch)?;
+    Ok(launch.unhandled.reports())
 }
 
-fn run_all(job: &Job<'_>) -> Result<()> {
-    let size = job.dimensions.as_u64vec3();
+fn run_all(launch: &Launch<'_>) -> Result<()> {
+    let size = launch.dimensions.as_u64vec3();
     let total = size.x * size.y * size.z;
     let failed = AtomicBool::new(false);
     let first: Mutex<Option<(u64, Error)>> = Mutex::new(None);
@@ -151,8 +153,8 @@ fn run_all(job: &Job<'_>) -> Result<()> {
                 (linear / size.x % size.y) as u32,
                 (linear / (size.x * size.y)) as u32,
             );
-            // SAFETY: `run_index` calls the programs, and the job outlives it.
-            if let Err(error) = unsafe { job.reached.memory.enter(|| run_index(job, index)) } {
+            // SAFETY: `run_index` calls the programs, and the launch outlives it.
+            if let Err(error) = unsafe { launch.reached.memory.enter(|| run_index(launch, index)) } {
                 failed.store(true, Relaxed);
                 let mut first = first.lock().unwrap_or_else(|e| e.into_inner());
                 if first.as_ref().is_none_or(|(at, _)| linear < *at) {
@@ -167,18 +169,18 @@ fn run_all(job: &Job<'_>) -> Result<()> {
     }
 }
 
-fn run_index(job: &Job<'_>, index: UVec3) -> Result<()> {
-    let running = Cell::new(job.description.raygen[job.raygen].entry.name);
+fn run_index(launch: &Launch<'_>, index: UVec3) -> Result<()> {
+    let running = Cell::new(launch.description.raygen[launch.raygen].entry.name);
     // SAFETY: this is the executor; nothing of the index runs after an end but its exception program, which is told of it.
-    let ended = unsafe { end::catch(|| Call::raygen(job, index, &running)) };
+    let ended = unsafe { end::catch(|| Call::raygen(launch, index, &running)) };
     let ended = match ended {
         Err(End::Thrown(exception)) => {
             let thrower = running.get();
             // SAFETY: as above, and nothing at all runs after this.
-            match unsafe { end::catch(|| Call::exception(job, index, &running, &exception)) } {
+            match unsafe { end::catch(|| Call::exception(launch, index, &running, &exception)) } {
                 Ok(true) => Ok(()),
                 Ok(false) => {
-                    job.unhandled.add(job, index, thrower, &exception);
+                    launch.unhandled.add(launch, index, thrower, &exception);
                     Ok(())
                 }
                 Err(end) => Err(end),
@@ -191,9 +193,9 @@ fn run_index(job: &Job<'_>, index: UVec3) -> Result<()> {
         Err(End::Failed { rule, what }) => {
             Err(Error::Program { program: running.get().into(), index: index.to_array(), rule, what })
         }
-        // It has no way to throw.
+        // An exception program can't throw, so this does not happen.
         Err(End::Thrown(exception)) => {
-            job.unhandled.add(job, index, running.get(), &exception);
+            launch.unhandled.add(launch, index, running.get(), &exception);
             Ok(())
         }
     }

@@ -1,6 +1,6 @@
-//! The programs that run while a ray is traversed, and what programs at a primitive may ask.
+//! Runs the programs that are called during the traversal of a ray, and answers what programs at a primitive ask.
 
-use super::call::{Call, Seen};
+use super::call::{Call, RayAndHit};
 use super::checks;
 use super::handle::{self, rows};
 use crate::cpu::kernel::{self, Candidate, InstancePath, Programs, Reporter, Site};
@@ -10,14 +10,14 @@ use optix_device_rs::host::{CallableCall, Executor, HitState, InstanceState, Tra
 use optix_device_rs::prelude::{Decision, Ray};
 use optix_device_rs::words::WordBuffer;
 
-/// Programs at a primitive: closest-hit and any-hit. `V` finds the corners of a triangle.
+/// Closest-hit and any-hit programs, which run at a primitive. `V` finds the vertices of its triangle.
 pub(super) struct AtHit<'c, V> {
     pub call: &'c Call<'c>,
     pub path: &'c InstancePath<'c>,
     pub vertices: V,
 }
 
-/// What programs at a primitive ask about the way to it, and what they ask in the words of programs without one.
+/// Answers of programs at a primitive: about the path to it, and those that programs without a primitive get too.
 macro_rules! of_path {
     () => {
         fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
@@ -73,7 +73,7 @@ impl<V: Fn() -> Option<[[f32; 3]; 3]>> Executor for AtHit<'_, V> {
     }
 }
 
-/// An intersection program at its primitive.
+/// An intersection program, which runs at its primitive.
 struct AtPrimitive<'c, 't, 'p, 'r, 's> {
     call: &'c Call<'c>,
     path: &'c InstancePath<'c>,
@@ -86,10 +86,11 @@ impl Executor for AtPrimitive<'_, '_, '_, '_, '_> {
     of_path!();
 
     fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool {
-        if self.call.job.checked {
+        if self.call.launch.checked {
             checks::report(self.site, self.interval_end(), t, kind);
         }
-        // As on the device: OptiX has seven bits of the kind, and the eighth says that a primitive is a built-in one.
+        // As on the device: OptiX keeps seven bits of the kind, and the eighth tells that the primitive is a built-in
+        // one.
         let kind = kind & 0x7f;
         // The any-hit program that this may call gets executors of its own, so neither cell is borrowed twice.
         self.reporter.borrow_mut().report(&mut **self.traversal.borrow_mut(), t, kind, &attributes.0[..count])
@@ -108,9 +109,9 @@ pub(super) struct Traversal<'c> {
     pub ray: Ray,
 }
 
-/// What a program at a primitive sees; `ray` with the `tmax` that is right for the program.
-fn seen(site: &Site<'_>, ray: Ray, kind: u8, attributes: [u32; 8]) -> Seen {
-    Seen {
+/// What a program at a primitive sees. `ray` has the `tmax` for that program.
+fn ray_and_hit(site: &Site<'_>, ray: Ray, kind: u8, attributes: [u32; 8]) -> RayAndHit {
+    RayAndHit {
         ray,
         object_ray: (Vec3::from_array(site.object_ray.origin), Vec3::from_array(site.object_ray.direction)),
         hit: HitState {
@@ -130,8 +131,8 @@ impl Programs for Traversal<'_> {
         let Some(entry) = &call.hit_programs(site.sbt_index).anyhit else { return kernel::AnyHit::Accept };
         let executor = AtHit { call, path: site.path, vertices: || candidate.triangle_vertices() };
         let ray = Ray { tmax: candidate.t, ..self.ray };
-        let seen = seen(site, ray, candidate.hit_kind, candidate.attributes);
-        match call.run(entry, &call.job.sbt.hit, site.sbt_index as usize, seen, &executor) {
+        let ray_and_hit = ray_and_hit(site, ray, candidate.hit_kind, candidate.attributes);
+        match call.run(entry, &call.launch.sbt.hit, site.sbt_index as usize, ray_and_hit, &executor) {
             Decision::Accept => kernel::AnyHit::Accept,
             Decision::Ignore => kernel::AnyHit::Ignore,
             Decision::Terminate => kernel::AnyHit::Terminate,
@@ -148,14 +149,14 @@ impl Programs for Traversal<'_> {
             traversal: RefCell::new(self),
             reporter: RefCell::new(reporter),
         };
-        let seen = seen(site, ray, 0, [0; 8]);
-        let _ = call.run(entry, &call.job.sbt.hit, site.sbt_index as usize, seen, &executor);
+        let ray_and_hit = ray_and_hit(site, ray, 0, [0; 8]);
+        let _ = call.run(entry, &call.launch.sbt.hit, site.sbt_index as usize, ray_and_hit, &executor);
     }
 
     #[cold]
     #[inline(never)]
     fn no_ray(&mut self, path: &InstancePath<'_>, object_ray: &kernel::Ray) {
-        if self.call.job.checked {
+        if self.call.launch.checked {
             checks::no_ray(path, object_ray);
         }
     }

@@ -253,7 +253,7 @@ fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned
         callables,
         exception: Section::new([]),
     };
-    let job = Job {
+    let launch = Launch {
         description: &PIPELINE,
         depths: planned.depths,
         exceptions: planned.exceptions,
@@ -265,12 +265,12 @@ fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned
         checked,
         unhandled: Unhandled::default(),
     };
-    match run_index(&job, UVec3::new(3, 1, 0)) {
+    match run_index(&launch, UVec3::new(3, 1, 0)) {
         Err(error) => match error {
             Error::Program { rule, .. } => Outcome::Trapped(rule, error.to_string()),
             _ => panic!("{error}"),
         },
-        Ok(()) => match job.unhandled.reports() {
+        Ok(()) => match launch.unhandled.reports() {
             reports if reports.is_empty() => Outcome::Done,
             reports => Outcome::Thrown(reports),
         },
