@@ -2,7 +2,7 @@
 
 use crate::backend::Running;
 use crate::error::LaunchError;
-use crate::limits::MAX_LAUNCH_SIZE;
+use crate::limits::launch_size;
 use crate::{Error, Pipeline, Result};
 use optix_device_rs::data::DeviceData;
 use optix_device_rs::host::{KeepAlive, Kept, Twin};
@@ -31,12 +31,11 @@ impl<P: PipelineType> Pipeline<P> {
 
     fn begin(&self, raygen: usize, params: &<P::Params as LaunchParams>::Host, dimensions: [u32; 3]) -> Result<Launch> {
         let error = |error| Error::Launch { pipeline: self.plan.description.name, error };
-        let size = dimensions.iter().map(|&d| u128::from(d)).product::<u128>();
-        if size == 0 {
-            return Err(error(LaunchError::Empty { dimensions }));
-        }
-        if size > u128::from(MAX_LAUNCH_SIZE) {
-            return Err(error(LaunchError::TooLarge { dimensions }));
+        if launch_size(dimensions).is_none() {
+            return Err(error(match dimensions.contains(&0) {
+                true => LaunchError::Empty { dimensions },
+                false => LaunchError::TooLarge { dimensions },
+            }));
         }
         // SAFETY: the launch that is given the views keeps the owners.
         let mut keep = unsafe { KeepAlive::new() };

@@ -17,7 +17,31 @@ pub const INSTANCE_BITS: u32 = 28;
 pub const MAX_INSTANCE_NUMBER: u32 = (1 << INSTANCE_BITS) - 1;
 /// The most launch indices of a launch (guide 12).
 pub const MAX_LAUNCH_SIZE: u64 = 1 << 30;
+/// The launch indices of a launch with these dimensions; none if that is no index at all, or more than [`MAX_LAUNCH_SIZE`].
+pub fn launch_size(dimensions: [u32; 3]) -> Option<u64> {
+    // Two factors fit 64 bits, the third is checked for.
+    let size = dimensions.iter().try_fold(1u64, |size, &dimension| size.checked_mul(dimension.into()))?;
+    (1..=MAX_LAUNCH_SIZE).contains(&size).then_some(size)
+}
+
 /// Bytes of a record's header, `OPTIX_SBT_RECORD_HEADER_SIZE` (guide 7.2).
 pub const RECORD_HEADER_SIZE: usize = 32;
 /// What addresses and strides of records are multiples of, `OPTIX_SBT_RECORD_ALIGNMENT` (guide 7.2).
 pub const RECORD_ALIGNMENT: usize = 16;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_launch_has_1_to_2_pow_30_indices() {
+        for dims in [[1, 1, 1], [1 << 30, 1, 1], [1 << 15, 1 << 15, 1], [1, 1 << 20, 1 << 10]] {
+            assert!(launch_size(dims).is_some(), "{dims:?}");
+        }
+        for dims in
+            [[0, 1, 1], [1, 1, 0], [(1 << 30) + 1, 1, 1], [1 << 15, 1 << 15, 2], [u32::MAX; 3], [1 << 31, 1 << 31, 4]]
+        {
+            assert!(launch_size(dims).is_none(), "{dims:?}");
+        }
+    }
+}

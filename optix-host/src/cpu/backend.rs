@@ -1,7 +1,7 @@
 //! The CPU as a backend: it turns the scene's description into the kernel's structures and runs launches.
 
 use super::executor::{self, Callables, Launch, Reached};
-use super::kernel::{Accel, Gas, Ias, Instance};
+use super::kernel::{Accel, Gas, Ias};
 use super::memory::CpuMemory;
 use crate::Result;
 use crate::backend::{Backend, Linked, Running, next_device_id};
@@ -60,14 +60,7 @@ impl Backend for CpuBackend {
         let instances = input.instances.iter().enumerate().map(|(i, instance)| {
             let child = instance.child.owner.downcast_ref::<CpuAccel>();
             let child = child.ok_or(SceneError::InstanceOfAnotherDevice { instance: i })?;
-            Ok(Instance {
-                transform: instance.transform,
-                instance_id: instance.id,
-                sbt_offset: instance.sbt_offset,
-                visibility_mask: instance.mask,
-                flags: instance.flags,
-                child: child.accel.clone(),
-            })
+            Ok(instance.with_child(child.accel.clone()))
         });
         Ok(built(Ias::new(instances.collect::<Result<_>>()?)?.into()))
     }

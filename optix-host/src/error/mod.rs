@@ -4,6 +4,7 @@
 mod build;
 mod driver;
 mod geometry;
+mod instance;
 mod launch;
 mod pipeline;
 mod reference;
@@ -13,6 +14,7 @@ mod words;
 pub use build::BuildError;
 pub use driver::{CudaFailure, DriverError, LogMessage, OptixFailure};
 pub use geometry::GeometryError;
+pub use instance::InstanceError;
 pub use launch::LaunchError;
 pub use pipeline::{LayoutDifference, PipelineError};
 pub use reference::ReferenceError;

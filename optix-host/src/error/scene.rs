@@ -1,8 +1,6 @@
 //! What can be wrong with a scene.
 
 use super::words::{Words, errors};
-use crate::limits::{INSTANCE_BITS, MAX_GRAPH_DEPTH};
-use glam::Affine3A;
 
 /// What does not fit together in a scene. Geometries and instances are counted from 0, in the order given.
 #[derive(Clone, PartialEq)]
@@ -51,46 +49,6 @@ pub enum SceneError {
         /// Which instance.
         instance: usize,
     },
-    /// An id that is too large.
-    InstanceId {
-        /// Which instance.
-        instance: usize,
-        /// Its id.
-        id: u32,
-    },
-    /// Flags of an instance that exclude each other.
-    InstanceFlags {
-        /// Which instance.
-        instance: usize,
-        /// The names of the flags.
-        flags: [&'static str; 2],
-    },
-    /// A transform with an element that is NaN or infinite.
-    NonFiniteTransform {
-        /// Which instance.
-        instance: usize,
-        /// Its transform.
-        transform: Affine3A,
-    },
-    /// A transform without an inverse.
-    SingularTransform {
-        /// Which instance.
-        instance: usize,
-        /// Its transform.
-        transform: Affine3A,
-    },
-    /// An instance whose records begin too far in the table.
-    RecordOffset {
-        /// Which instance.
-        instance: usize,
-        /// Where its records begin.
-        offset: u64,
-    },
-    /// A graph with more levels than OptiX traverses.
-    GraphTooDeep {
-        /// Levels of instances.
-        levels: u32,
-    },
     /// A GAS that only rays through an instance find the records of.
     NotFirstGas,
 }
@@ -135,39 +93,6 @@ impl SceneError {
             Self::InstanceOfAnotherDevice { instance } => (
                 format!("instance {instance} is of an acceleration structure of another device"),
                 "build the structure on this device",
-            ),
-            Self::InstanceId { instance, id } => (
-                format!("instance {instance} has id {id}, which is more than {INSTANCE_BITS} bits (guide 5.4)"),
-                "give it a smaller id, and keep what it stands for in a buffer that programs index by it",
-            ),
-            Self::InstanceFlags { instance, flags: [a, b] } => (
-                format!("instance {instance} has the flags {a} and {b}, which exclude each other (guide 5.4)"),
-                "leave one out",
-            ),
-            Self::NonFiniteTransform { instance, transform } => (
-                format!("instance {instance} has a transform that is not finite: {transform}"),
-                "give all of its elements finite values",
-            ),
-            Self::SingularTransform { instance, transform } => (
-                format!(
-                    "instance {instance} has a transform that can't be inverted, so rays can't be taken to its space: \
-                     {transform}"
-                ),
-                "give it one that can; an instance that shrinks to nothing, or to a plane, is left out from there on",
-            ),
-            Self::RecordOffset { instance, offset } => (
-                format!(
-                    "the records of instance {instance} begin at number {offset} of the table, which is more than \
-                     {INSTANCE_BITS} bits (guide 5.4)"
-                ),
-                "use fewer materials per GAS; GASes with the same list of materials share their records",
-            ),
-            Self::GraphTooDeep { levels } => (
-                format!(
-                    "there are {levels} levels of instances, but a traversable graph has at most {MAX_GRAPH_DEPTH} levels \
-                     with its geometry (guide 12)"
-                ),
-                "put instances of instances into one IAS, with the product of their transforms",
             ),
             Self::NotFirstGas => (
                 "this GAS is not the scene's first, so its records are reached through an instance only".into(),

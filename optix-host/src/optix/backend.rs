@@ -1,10 +1,10 @@
 //! OptiX as a backend: it turns the scene's description and the plan into driver objects.
 
 use super::driver::{
-    self, Accel, AccelOptions, BoundValue, Context, ContextOptions, DebugLevel, DeviceBuffer, Entry, Instance,
-    Intersection, LaunchArgs, LinkOptions, Module, ModuleOptions, PayloadSemantics, PayloadType, Pipeline,
-    PipelineOptions, PrimitiveKinds, ProgramGroup, Programs, SbtSection, SbtSections,
-    ShaderBindingTable as DeviceTable, TraversableGraph, stack::CallDepths,
+    self, Accel, AccelOptions, BoundValue, Context, ContextOptions, DebugLevel, DeviceBuffer, Entry, Intersection,
+    LaunchArgs, LinkOptions, Module, ModuleOptions, PayloadSemantics, PayloadType, Pipeline, PipelineOptions,
+    PrimitiveKinds, ProgramGroup, Programs, SbtSection, SbtSections, ShaderBindingTable as DeviceTable,
+    TraversableGraph, stack::CallDepths,
 };
 use super::{OptixOptions, feedback};
 use crate::backend::{Backend, Linked, Running, next_device_id};
@@ -71,14 +71,7 @@ impl Backend for OptixBackend {
         let instances = input.instances.iter().enumerate().map(|(i, instance)| {
             let child = instance.child.owner.downcast_ref::<Accel>();
             let child = child.ok_or(SceneError::InstanceOfAnotherDevice { instance: i })?;
-            Ok(Instance {
-                transform: instance.transform,
-                id: instance.id,
-                sbt_offset: instance.sbt_offset,
-                visibility_mask: instance.mask,
-                flags: instance.flags,
-                ..Instance::of(child)
-            })
+            Ok(instance.with_child(child.into()))
         });
         let instances: Vec<_> = instances.collect::<Result<_>>()?;
         let options = AccelOptions { random_instance_access: input.random_instance_access, ..Default::default() };

@@ -2,9 +2,7 @@
 
 use super::{Accel, BuiltAccel, IasInput, InstanceFlags, InstanceInput, SceneState};
 use crate::Result;
-use crate::affine::Affine;
 use crate::error::SceneError;
-use crate::limits::{MAX_GRAPH_DEPTH, MAX_INSTANCE_NUMBER};
 use glam::Affine3A;
 use optix_device_rs::pipeline::Pipeline;
 
@@ -54,55 +52,30 @@ impl SceneState {
         if instances.is_empty() {
             return Err(SceneError::EmptyIas.into());
         }
-        let mut inputs = Vec::with_capacity(instances.len());
-        for (i, instance) in instances.iter().enumerate() {
+        let input = |(index, instance): (usize, &Instance<P>)| {
             let child = &instance.child.shared;
             if child.scene != self.id {
-                return Err(SceneError::ForeignInstance { instance: i }.into());
+                return Err(SceneError::ForeignInstance { instance: index });
             }
-            if instance.id > MAX_INSTANCE_NUMBER {
-                return Err(SceneError::InstanceId { instance: i, id: instance.id }.into());
-            }
-            if let Some(flags) = instance.flags.conflict() {
-                return Err(SceneError::InstanceFlags { instance: i, flags }.into());
-            }
+            let first_record = u64::from(child.first_slot) * u64::from(P::RAY_TYPES);
             let rows = glam::Mat4::from(instance.transform).transpose().to_cols_array();
-            let transform = core::array::from_fn(|k| rows[k]);
-            if !instance.transform.is_finite() {
-                return Err(SceneError::NonFiniteTransform { instance: i, transform: instance.transform }.into());
-            }
-            if Affine::from_f32(&transform).inverse().is_none() {
-                return Err(SceneError::SingularTransform { instance: i, transform: instance.transform }.into());
-            }
-            let sbt_offset = u64::from(child.first_slot) * u64::from(P::RAY_TYPES);
-            let Some(sbt_offset) = u32::try_from(sbt_offset).ok().filter(|&offset| offset <= MAX_INSTANCE_NUMBER)
-            else {
-                return Err(SceneError::RecordOffset { instance: i, offset: sbt_offset }.into());
-            };
-            inputs.push(InstanceInput {
-                transform,
+            Ok(InstanceInput {
+                transform: core::array::from_fn(|element| rows[element]),
                 id: instance.id,
-                mask: instance.mask,
+                // What does not fit 32 bits does not fit the 28 that there are, which the machine refuses.
+                sbt_offset: u32::try_from(first_record).unwrap_or(u32::MAX),
+                visibility_mask: instance.mask,
                 flags: instance.flags,
-                sbt_offset,
                 child: child.built.clone(),
-            });
-        }
-        let depth = depth_over(instances);
-        if depth as usize >= MAX_GRAPH_DEPTH {
-            return Err(SceneError::GraphTooDeep { levels: depth }.into());
-        }
+            })
+        };
+        let inputs = instances.iter().enumerate().map(input).collect::<Result<_, _>>()?;
         Ok(IasInput { instances: inputs, random_instance_access })
     }
 
     /// Takes the IAS that a machine built of these instances.
     pub(crate) fn add_ias<P>(&mut self, instances: Vec<Instance<P>>, built: BuiltAccel) -> Accel<P> {
-        let depth = depth_over(&instances);
+        let depth = instances.iter().map(|instance| instance.child.shared.depth + 1).max().unwrap_or(0);
         self.add_accel(built, depth, 0, instances.into_iter().map(|instance| instance.child.shared).collect())
     }
-}
-
-/// Levels of instances of an IAS of these.
-fn depth_over<P>(instances: &[Instance<P>]) -> u32 {
-    instances.iter().map(|instance| instance.child.shared.depth + 1).max().unwrap_or(0)
 }

@@ -1,6 +1,6 @@
 //! What a machine is given to build acceleration structures, and what it gives back.
 
-use super::InstanceFlags;
+use super::InstanceInput;
 use crate::geometry::BuildInputs;
 use std::any::Any;
 use std::sync::Arc;
@@ -15,19 +15,9 @@ pub(crate) struct GasInput {
 
 /// What an IAS is built of.
 pub(crate) struct IasInput {
-    pub instances: Vec<InstanceInput>,
+    pub instances: Vec<InstanceInput<BuiltAccel>>,
     /// Whether programs read its instances by handle.
     pub random_instance_access: bool,
-}
-
-/// An instance of an acceleration structure.
-pub(crate) struct InstanceInput {
-    pub transform: [f32; 12],
-    pub id: u32,
-    pub mask: u8,
-    pub flags: InstanceFlags,
-    pub sbt_offset: u32,
-    pub child: BuiltAccel,
 }
 
 /// An acceleration structure: `owner` keeps `handle` alive.

@@ -8,6 +8,7 @@ mod gas;
 mod geometry;
 mod ias;
 mod input;
+mod instance;
 mod material;
 
 pub use crate::error::{GeometryError, SceneError};
@@ -18,7 +19,8 @@ pub use flags::InstanceFlags;
 pub use gas::GasMember;
 pub use geometry::Geometry;
 pub use ias::Instance;
-pub(crate) use input::{BuiltAccel, GasInput, IasInput, InstanceInput};
+pub(crate) use input::{BuiltAccel, GasInput, IasInput};
+pub use instance::{InstanceInput, InstanceLimits};
 pub use material::Material;
 pub(crate) use material::MaterialState;
 

@@ -327,7 +327,7 @@ impl Executor for Call<'_> {
             fail(Rule::InstanceHandle, "a handle is of no instance".into())
         };
         InstanceState {
-            id: placed.instance.instance_id,
+            id: placed.instance.id,
             child: handle::of(&*placed.instance.child),
             transform: rows(placed.instance.transform),
             inverse: rows(placed.inverse_transform()),

@@ -1,7 +1,7 @@
 //! The checks of the checked mode: they find what the OptiX guide calls undefined, or leaves to the application.
 
 use super::Launch;
-use crate::cpu::kernel::{Aabb, InstancePath, Ray, Site};
+use crate::cpu::kernel::{Aabb, InstancePath, Ray, Site, ray_flags};
 use core::cell::RefCell;
 use glam::Vec3;
 use optix_device_rs::host::end::fail;
@@ -29,9 +29,8 @@ pub(super) fn trace(launch: &Launch<'_>, trace: &TraceCall) -> Watch {
     if ray.tmin < 0.0 {
         fail(Rule::Interval, format!("tmin is negative: {}", ray.tmin));
     }
-    // Two groups of flags, of which a ray may have one each: the four about any-hit programs, and the two about culling
-    // by face.
-    for (group, rule) in [(1 | 2 | 64 | 128, Rule::AnyHitFlags), (16 | 32, Rule::CullFlags)] {
+    // A ray may have one flag of each of these groups.
+    for (group, rule) in [(ray_flags::ANYHIT, Rule::AnyHitFlags), (ray_flags::CULL_FACES, Rule::CullFlags)] {
         if (ray.flags.bits() & group).count_ones() > 1 {
             fail(rule, format!("the ray flags {:#x} have two that exclude each other", ray.flags.bits()));
         }

@@ -232,7 +232,7 @@ fn run_planned(custom: bool, checked: bool, mut script: Script, planned: Planned
     if script.scale != 1.0 {
         let s = script.scale;
         let transform = [s, 0.0, 0.0, 0.0, 0.0, s, 0.0, 0.0, 0.0, 0.0, s, 0.0];
-        let instance = Instance { transform, instance_id: 17, ..Instance::new(Arc::new(accel)) };
+        let instance = Instance { transform, id: 17, ..Instance::new(Arc::new(accel)) };
         accel = Ias::new(vec![instance]).unwrap().into();
     }
     let handle = Handle::issue();

@@ -3,17 +3,22 @@
 use crate::geometry::GeometryFlags;
 use crate::scene::InstanceFlags;
 
-/// The bits of `OptixRayFlags` (guide 13.2).
+/// The bits of `OptixRayFlags` (guide 13.2) that traversal looks at, as the device crate has them.
 pub mod ray_flags {
-    pub const NONE: u32 = 0;
-    pub const DISABLE_ANYHIT: u32 = 1;
-    pub const ENFORCE_ANYHIT: u32 = 2;
-    pub const TERMINATE_ON_FIRST_HIT: u32 = 4;
-    pub const DISABLE_CLOSESTHIT: u32 = 8;
-    pub const CULL_BACK_FACING_TRIANGLES: u32 = 16;
-    pub const CULL_FRONT_FACING_TRIANGLES: u32 = 32;
-    pub const CULL_DISABLED_ANYHIT: u32 = 64;
-    pub const CULL_ENFORCED_ANYHIT: u32 = 128;
+    use optix_device_rs::prelude::{AnyHitMode, CullFaces, RayFlags};
+
+    pub const NONE: u32 = RayFlags::NONE.bits();
+    pub const DISABLE_ANYHIT: u32 = AnyHitMode::Disable as u32;
+    pub const ENFORCE_ANYHIT: u32 = AnyHitMode::Enforce as u32;
+    pub const CULL_DISABLED_ANYHIT: u32 = AnyHitMode::CullDisabled as u32;
+    pub const CULL_ENFORCED_ANYHIT: u32 = AnyHitMode::CullEnforced as u32;
+    pub const TERMINATE_ON_FIRST_HIT: u32 = RayFlags::NONE.terminate_on_first_hit().bits();
+    pub const CULL_BACK_FACING_TRIANGLES: u32 = CullFaces::Back as u32;
+    pub const CULL_FRONT_FACING_TRIANGLES: u32 = CullFaces::Front as u32;
+    /// Those about any-hit programs, which exclude each other.
+    pub const ANYHIT: u32 = DISABLE_ANYHIT | ENFORCE_ANYHIT | CULL_DISABLED_ANYHIT | CULL_ENFORCED_ANYHIT;
+    /// Those about faces, which exclude each other.
+    pub const CULL_FACES: u32 = CULL_BACK_FACING_TRIANGLES | CULL_FRONT_FACING_TRIANGLES;
 }
 
 /// What the flags say about a primitive, before it is intersected.

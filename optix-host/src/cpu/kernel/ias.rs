@@ -5,9 +5,9 @@ use std::sync::Arc;
 use super::bvh::{Aabb, Bvh, SINGLE_LEAF};
 use super::gas::Gas;
 use crate::affine::Affine;
-use crate::error::BuildError;
+use crate::error::{BuildError, InstanceError};
 use crate::limits::{MAX_GRAPH_DEPTH, MAX_INSTANCE_NUMBER, MAX_INSTANCES};
-use crate::scene::InstanceFlags;
+use crate::scene::{InstanceInput, InstanceLimits};
 
 /// A structure that rays are traced against.
 #[derive(Debug)]
@@ -69,33 +69,11 @@ impl From<Ias> for Accel {
     }
 }
 
-/// One instance (`OptixInstance`, guide 5.4).
-#[derive(Clone, Debug)]
-pub struct Instance {
-    /// Object to world, row-major 3x4. Must be invertible.
-    pub transform: [f32; 12],
-    /// 28 bits.
-    pub instance_id: u32,
-    /// 28 bits; the sum along any way down the graph as well.
-    pub sbt_offset: u32,
-    pub visibility_mask: u8,
-    pub flags: InstanceFlags,
-    pub child: Arc<Accel>,
-}
+/// An instance of a structure.
+pub type Instance = InstanceInput<Arc<Accel>>;
 
-impl Instance {
-    /// An instance at identity, visible to all, with ID and SBT offset 0 and no flags.
-    pub fn new(child: Arc<Accel>) -> Self {
-        Self {
-            transform: Affine::IDENTITY.to_f32(),
-            instance_id: 0,
-            sbt_offset: 0,
-            visibility_mask: 0xff,
-            flags: InstanceFlags::NONE,
-            child,
-        }
-    }
-}
+const LIMITS: InstanceLimits =
+    InstanceLimits { id: MAX_INSTANCE_NUMBER, sbt_offset: MAX_INSTANCE_NUMBER, depth: MAX_GRAPH_DEPTH };
 
 /// An instance in a built structure.
 #[derive(Debug)]
@@ -137,7 +115,7 @@ impl Ias {
         let (mut placed, mut boxes) = (Vec::with_capacity(instances.len()), Vec::with_capacity(instances.len()));
         let (mut slack, mut max_sbt_offset, mut depth) = (1.0f64, 0, 1);
         for (i, instance) in instances.into_iter().enumerate() {
-            let inverse = check(i, &instance)?;
+            let inverse = check(&instance).map_err(|error| BuildError::Instance { instance: i, error })?;
             let transform = Affine::from_f32(&instance.transform);
             boxes.push(outline(&transform, &instance.child.bounds()));
             slack = slack.max(transform.norm() * inverse.norm() * (instance.child.slack() + 1.0));
@@ -172,28 +150,10 @@ impl Ias {
 }
 
 /// Finds what is wrong with an instance, or gives the inverse of its transform.
-fn check(instance: usize, given: &Instance) -> Result<Affine, BuildError> {
-    for (field, value) in [("instance_id", given.instance_id), ("sbt_offset", given.sbt_offset)] {
-        if value > MAX_INSTANCE_NUMBER {
-            return Err(BuildError::Exceeds28Bits { instance, field, value });
-        }
-    }
-    let sum = given.sbt_offset + given.child.max_sbt_offset();
-    if sum > MAX_INSTANCE_NUMBER {
-        return Err(BuildError::SbtOffsetSum { instance, offset: given.sbt_offset, sum });
-    }
-    if given.flags.conflict().is_some() {
-        return Err(BuildError::AnyHitFlags { instance });
-    }
-    let depth = 1 + given.child.depth();
-    if depth > MAX_GRAPH_DEPTH {
-        return Err(BuildError::TooDeep { instance, depth, limit: MAX_GRAPH_DEPTH });
-    }
-    let transform = given.transform;
-    if !transform.iter().all(|x| x.is_finite()) {
-        return Err(BuildError::NonFiniteTransform { instance, transform });
-    }
-    Affine::from_f32(&transform).inverse().ok_or(BuildError::SingularTransform { instance, transform })
+fn check(instance: &Instance) -> Result<Affine, InstanceError> {
+    let inverse = instance.check(instance.child.depth(), LIMITS)?;
+    let (offset, sum) = (instance.sbt_offset, instance.sbt_offset + instance.child.max_sbt_offset());
+    if sum > LIMITS.sbt_offset { Err(InstanceError::RecordOffsetSum { offset, sum }) } else { Ok(inverse) }
 }
 
 /// A box around the transformed `bounds`. They are widened first by the rounding of an origin in the child's space,

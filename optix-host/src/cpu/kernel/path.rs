@@ -82,7 +82,7 @@ impl<'a> InstancePath<'a> {
 
     /// `optixGetInstanceId`: the innermost instance's ID, `!0` without one (guide 13.7).
     pub fn instance_id(&self) -> u32 {
-        self.innermost().map_or(!0, |placed| placed.instance.instance_id)
+        self.innermost().map_or(!0, |placed| placed.instance.id)
     }
 
     /// `optixGetInstanceIndex`: the innermost instance's index in its IAS, 0 without one (guide 13.7).

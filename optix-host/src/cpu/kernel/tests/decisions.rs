@@ -62,13 +62,12 @@ fn flags_have_the_abi_values() {
         DISABLE_ANYHIT,
         ENFORCE_ANYHIT,
         TERMINATE_ON_FIRST_HIT,
-        DISABLE_CLOSESTHIT,
         CULL_BACK_FACING_TRIANGLES,
         CULL_FRONT_FACING_TRIANGLES,
         CULL_DISABLED_ANYHIT,
         CULL_ENFORCED_ANYHIT,
     ];
-    assert_eq!(all, [1, 2, 4, 8, 16, 32, 64, 128]);
+    assert_eq!(all, [1, 2, 4, 16, 32, 64, 128]);
     assert_eq!((FRONT_FACE, BACK_FACE), (254, 255));
 }
 

@@ -97,7 +97,7 @@ fn offsets_flags_and_transforms_over_levels() {
         Instance {
             transform: [0., -2., 0., 7., 2., 0., 0., 0., 0., 0., 2., 0.],
             sbt_offset: 20,
-            instance_id: 77,
+            id: 77,
             ..Instance::new(gas)
         },
     ]);
@@ -159,7 +159,8 @@ fn a_graph_of_the_greatest_depth() {
     assert_eq!((hit.t, hit.sbt_index, hit.path.indices().len()), (70.0, (1..31).sum(), 30));
     assert_eq!(hit.path.object_to_world(), moved(0., 0., 30.));
     let error = Ias::new(vec![Instance::new(accel)]).unwrap_err();
-    assert_eq!(error, BuildError::TooDeep { instance: 0, depth: 32, limit: 31 });
+    let too_deep = InstanceError::TooDeep { depth: 32, limit: 31 };
+    assert_eq!(error, BuildError::Instance { instance: 0, error: too_deep });
 }
 
 #[test]

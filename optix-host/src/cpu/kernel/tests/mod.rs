@@ -10,6 +10,7 @@ mod watertight;
 use std::sync::Arc;
 
 use super::*;
+use crate::error::InstanceError;
 use crate::geometry::{self, BuildInput, CustomPrimitiveArray, GeometryFlags, Records, TriangleArray};
 use crate::scene::InstanceFlags;
 

@@ -16,10 +16,11 @@ use crate::cpu::kernel::simd::Simd;
 use crate::geometry::{BuildInput, PrimitiveArray, TriangleArray};
 use glam::DVec3;
 use intersect::{Block, Sheared, TriangleHit};
+use optix_device_rs::prelude::HitKind;
 
-/// Hit kinds of triangles (`OptixHitKind`).
-pub const FRONT_FACE: u8 = 254;
-pub const BACK_FACE: u8 = 255;
+/// Hit kinds of triangles.
+pub const FRONT_FACE: u8 = HitKind::TRIANGLE_FRONT_FACE.get();
+pub const BACK_FACE: u8 = HitKind::TRIANGLE_BACK_FACE.get();
 
 /// Bits of a leaf's payload that hold the block.
 const BLOCK_BITS: u32 = 28;
