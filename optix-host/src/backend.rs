@@ -14,8 +14,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(crate) trait Backend: Any + Send + Sync {
     /// Unique in the process.
     fn id(&self) -> DeviceId;
-    /// Takes what the machine complained about since the last call.
-    fn take_complaints(&self) -> Vec<String>;
+    /// Takes the warnings and errors that the machine reported since the last call.
+    fn take_messages(&self) -> Vec<String>;
     /// Allocates zeroed memory for elements that the CPU accesses `width` bytes at a time
     /// ([`shared::width`](optix_device_rs::host::shared::width)).
     fn allocate(&self, bytes: usize, width: usize) -> Result<Arc<dyn Memory>>;

@@ -103,9 +103,10 @@ impl Device {
         &self.description
     }
 
-    /// Takes the warnings and errors that the driver logged since the last call; in validation mode, what it found.
-    pub fn take_complaints(&self) -> Vec<String> {
-        self.backend.take_complaints()
+    /// Takes the warnings and errors that were reported since the last call: what the driver logged, which in validation mode is what
+    /// it found, or the exceptions of launches on the CPU that no program was told of.
+    pub fn take_messages(&self) -> Vec<String> {
+        self.backend.take_messages()
     }
 
     /// A buffer that holds `elements`.

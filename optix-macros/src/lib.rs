@@ -543,7 +543,7 @@ pub fn exception(arguments: TokenStream, item: TokenStream) -> TokenStream {
 ///   number of records of each.
 /// - `throws: Enum`, optional: what programs may throw, an enum with [`UserException`](macro@UserException).
 /// - `exception: program`, optional: the program that is told of exceptions. Without it, but with `throws`, the first five
-///   exceptions of a launch are printed by OptiX, and are complaints of the CPU's device.
+///   exceptions of a launch are printed by OptiX, and are messages of the CPU's device.
 /// - `callable_depth: N`, 1 to 31, optional: the most callables that run one inside of the other. It follows from the programs
 ///   and their signatures, unless a callable can come to be called inside of itself.
 /// - `trace_depth: N`, 0 to 31, optional: how deep trace calls nest. It follows from the programs, unless rays lead to more of their

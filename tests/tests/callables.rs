@@ -203,16 +203,16 @@ fn without_an_exception_program() {
         let found = device.zeroed(INDICES as usize).unwrap();
         pipeline.launch(&UnheardFrameHost { found: found.clone() }, [INDICES, 1, 1]).unwrap().wait().unwrap();
         assert_eq!(found.read().unwrap(), std::array::from_fn::<u32, { INDICES as usize }, _>(|i| u32::from(i < 3)));
-        // OptiX prints them; the CPU's device complains.
+        // OptiX prints them; the CPU's device has messages.
         if device.kind() == BackendKind::Cpu {
-            let complaints = device.take_complaints();
-            assert_eq!(complaints.len(), 5);
-            for (i, complaint) in (3..).zip(complaints) {
+            let messages = device.take_messages();
+            assert_eq!(messages.len(), 5);
+            for (i, message) in (3..).zip(messages) {
                 for part in ["Fault::Part", "code 1073741809", &format!("[{i}, 0, 0]"), "__raygen__", "callables.rs:"] {
-                    assert!(complaint.contains(part), "no `{part}` in: {complaint}");
+                    assert!(message.contains(part), "no `{part}` in: {message}");
                 }
             }
-            assert!(device.take_complaints().is_empty());
+            assert!(device.take_messages().is_empty());
         }
         let notes = pipeline.explain().to_string();
         assert!(notes.contains("user exceptions"), "{notes}");

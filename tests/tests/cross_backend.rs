@@ -183,7 +183,7 @@ fn validation_mode_reports_nothing() {
     let tracer = triangles.tracer(&optix);
     tracer.trace(&camera_rays(64, 64, true)).unwrap();
     tracer.respawn(&camera_rays(64, 64, true), 4, 1.0).unwrap();
-    assert_eq!(optix.take_complaints(), Vec::<String>::new());
+    assert_eq!(optix.take_messages(), Vec::<String>::new());
 }
 
 #[test]

@@ -225,7 +225,7 @@ pipeline! {
 /// What a launch says, what it wrote, and what its destructor saw.
 struct Said {
     failed: Option<String>,
-    complaints: Vec<String>,
+    messages: Vec<String>,
     out: u32,
     seen: Vec<u32>,
 }
@@ -245,8 +245,8 @@ fn run(device: &Device, way: usize, catch: usize) -> Said {
         Error::Program { what, program, index, .. } => format!("{program} {index:?} {what}"),
         other => panic!("{other}"),
     });
-    let complaints = device.take_complaints();
-    Said { failed, complaints, out: out.read().unwrap()[0], seen: seen.read().unwrap() }
+    let messages = device.take_messages();
+    Said { failed, messages, out: out.read().unwrap()[0], seen: seen.read().unwrap() }
 }
 
 #[test]
@@ -259,7 +259,7 @@ fn what_ends_a_launch_index_is_not_taken_back() {
             let (deep, own) =
                 (way == TraceDepth && catch == DestructorUses, matches!(way, Panic | PanicWithBomb | PanicWithBombs));
             let said = run(&device, w, c);
-            let (failed, complaint) = (said.failed.as_deref(), said.complaints.first().map(String::as_str));
+            let (failed, message) = (said.failed.as_deref(), said.messages.first().map(String::as_str));
             let expected = match way {
                 Throw => Err("Fault::A"),
                 ThrowInCallable => Err("Fault::B (code 1, details [5"),
@@ -274,13 +274,13 @@ fn what_ends_a_launch_index_is_not_taken_back() {
                 _ => Ok(""),
             };
             match expected {
-                Ok("") => assert_eq!((failed, complaint), (None, None), "{case}"),
+                Ok("") => assert_eq!((failed, message), (None, None), "{case}"),
                 Ok(what) => {
                     assert!(failed.is_some_and(|f| f.contains(what) && f.contains("[0, 0, 0]")), "{case}: {failed:?}")
                 }
                 Err(what) => {
                     assert_eq!(failed, None, "{case}");
-                    assert!(complaint.is_some_and(|c| c.contains(what)), "{case}: {complaint:?}");
+                    assert!(message.is_some_and(|c| c.contains(what)), "{case}: {message:?}");
                 }
             }
             let goes_on = matches!(expected, Ok(""))
@@ -307,7 +307,7 @@ fn ends_belong_to_their_launch_index() {
             fn drop(&mut self) {
                 // While this thread unwinds.
                 let said = run(self.0, 0, 0);
-                assert!(said.complaints[0].contains("Fault::A"));
+                assert!(said.messages[0].contains("Fault::A"));
                 let said = run(self.0, 9, 3);
                 assert_eq!((said.failed, said.out), (None, 77));
             }

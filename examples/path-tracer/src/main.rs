@@ -100,8 +100,8 @@ fn run(args: &Args) -> Result<(), Box<dyn Error>> {
         relative_error: render.moments().estimate().relative,
         rejected_samples: render.moments().rejected().samples,
     };
-    for complaint in device.take_complaints() {
-        eprintln!("driver: {complaint}");
+    for message in device.take_messages() {
+        eprintln!("driver: {message}");
     }
     println!("{summary}");
     println!("wrote {}", args.out.display());

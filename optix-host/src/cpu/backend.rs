@@ -17,15 +17,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub(crate) struct CpuBackend {
     id: DeviceId,
     checked: bool,
-    complaints: Complaints,
+    messages: Messages,
 }
 
 /// Exceptions that no program was told of.
-type Complaints = Arc<Mutex<Vec<String>>>;
+type Messages = Arc<Mutex<Vec<String>>>;
 
 impl CpuBackend {
     pub fn new() -> Self {
-        Self { id: next_device_id(), checked: false, complaints: Complaints::default() }
+        Self { id: next_device_id(), checked: false, messages: Messages::default() }
     }
 
     /// One that ends a launch, with the rule in the error, where a program does what the guide calls undefined.
@@ -44,8 +44,8 @@ impl Backend for CpuBackend {
         self.id
     }
 
-    fn take_complaints(&self) -> Vec<String> {
-        core::mem::take(&mut self.complaints.lock().unwrap_or_else(PoisonError::into_inner))
+    fn take_messages(&self) -> Vec<String> {
+        core::mem::take(&mut self.messages.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     fn allocate(&self, bytes: usize, width: usize) -> Result<Arc<dyn Memory>> {
@@ -73,9 +73,9 @@ impl Backend for CpuBackend {
     }
 
     fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable, kept: &[Kept]) -> Result<Box<dyn Linked>> {
-        let (checked, complaints) = (self.checked, self.complaints.clone());
+        let (checked, messages) = (self.checked, self.messages.clone());
         let callables = Callables::of(&sbt.callables);
-        Ok(Box::new(CpuPipeline { plan, sbt, callables, kept: kept.to_vec(), checked, complaints }))
+        Ok(Box::new(CpuPipeline { plan, sbt, callables, kept: kept.to_vec(), checked, messages }))
     }
 }
 
@@ -127,7 +127,7 @@ struct CpuPipeline {
     /// What the records point to.
     kept: Vec<Kept>,
     checked: bool,
-    complaints: Complaints,
+    messages: Messages,
 }
 
 impl Linked for CpuPipeline {
@@ -136,8 +136,8 @@ impl Linked for CpuPipeline {
         reached.memory.name(self.plan.description.params.fields, params);
         reached.callables = self.callables.clone();
         let launch = Launch::new(&self.plan, &self.sbt, params, reached, raygen, dimensions, self.checked);
-        let complaints = executor::run(launch)?;
-        self.complaints.lock().unwrap_or_else(PoisonError::into_inner).extend(complaints);
+        let messages = executor::run(launch)?;
+        self.messages.lock().unwrap_or_else(PoisonError::into_inner).extend(messages);
         Ok(Box::new(Done))
     }
 

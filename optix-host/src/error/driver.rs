@@ -165,7 +165,7 @@ pub struct LogMessage {
 
 impl LogMessage {
     /// Whether this is a warning or worse.
-    pub fn is_complaint(&self) -> bool {
+    pub fn is_warning_or_worse(&self) -> bool {
         self.level <= 3
     }
 }

@@ -46,9 +46,9 @@ impl Backend for OptixBackend {
         self.id
     }
 
-    fn take_complaints(&self) -> Vec<String> {
+    fn take_messages(&self) -> Vec<String> {
         let messages = self.context.take_messages().into_iter();
-        messages.filter(driver::LogMessage::is_complaint).map(|m| format!("[{}] {}", m.tag, m.text)).collect()
+        messages.filter(driver::LogMessage::is_warning_or_worse).map(|m| format!("[{}] {}", m.tag, m.text)).collect()
     }
 
     fn allocate(&self, bytes: usize, _: usize) -> Result<Arc<dyn Memory>> {

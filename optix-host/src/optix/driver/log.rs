@@ -108,7 +108,7 @@ mod tests {
         assert_eq!(unreported, [LogMessage { level: 2, tag: "TAG".into(), text: "text".into() }]);
         assert!(sink.take_unreported().is_empty());
         assert_eq!(sink.messages().len(), 3);
-        assert_eq!(sink.take_messages().iter().filter(|m| m.is_complaint()).count(), 2);
+        assert_eq!(sink.take_messages().iter().filter(|m| m.is_warning_or_worse()).count(), 2);
         assert!(sink.messages().is_empty());
     }
 
