@@ -51,7 +51,7 @@ pub(crate) const TINY: f32 = f32::MIN_POSITIVE * 16.0;
 ///    vertices are translated to the origin and sheared so that the ray is the `z` axis, which mixes axes: this is why the
 ///    error of a plane `y = 0` is one of distances *within* the plane. From distances `a` and slopes `s <= 1`, a vertex gets
 ///    `z = a_z` within `u |a_z|` and `x = a_x - s z` within `u (2 |a_x| + 2 s |z|)`, and `u s |z|` more since `s` is rounded. On the
-///    CPU all else is exact (`primitive/triangle/intersect.rs` of the kernel), so there are weights `w >= 0` of sum 1 with
+///    CPU all else is exact (`cpu/traversal/primitive/triangle/intersect.rs` of optix-host), so there are weights `w >= 0` of sum 1 with
 ///    `sum w a = z s + E`, where `|E|` is `2 u l + 3 u L` at most: the hit is on the ray but for `E`. Its height is negative
 ///    and the ray rises, so `z < 0` where `h > |n|.|E|`, for grazing rays as for others.
 /// 3. *direction*, `gamma(10) |n|.|W| |M| l`. The side is chosen by the computed world normal and direction: 7 roundings

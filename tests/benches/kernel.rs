@@ -1,4 +1,4 @@
-//! Rates of the CPU kernel in rays per second, against Embree 3 (single-ray, robust) where its library is installed.
+//! Rates of the CPU's traversal in rays per second, against Embree 3 (single-ray, robust) where its library is installed.
 //!
 //! `cargo bench -p optix-tests --bench kernel [-- FILTER]`. Criterion gives each contestant's time and rate with its
 //! spread. A contestant other than ours takes turns of a millisecond with ours, so that other load on the machine meets
@@ -14,7 +14,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput};
-use optix_host::cpu::kernel::{
+use optix_host::cpu::traversal::{
     Accel, AnyHit, Candidate, Gas, Programs, RayQuery, Reporter, Site, ray_flags, trace, trace_portable,
 };
 use optix_host::geometry::{BuildInput, GeometryFlags, Records, TriangleArray};

@@ -1,8 +1,8 @@
-//! The CPU as a backend: it turns the scene's description into the kernel's structures and runs launches.
+//! The CPU as a backend: it turns the scene's description into structures for traversal and runs launches.
 
 use super::executor::{self, Callables, Launch, Reached};
-use super::kernel::{Accel, Gas, Ias};
 use super::memory::CpuMemory;
+use super::traversal::{Accel, Gas, Ias};
 use crate::Result;
 use crate::backend::{Backend, Linked, Running, next_device_id};
 use crate::plan::Plan;

@@ -7,7 +7,7 @@ use std::ptr;
 use libloading::Library;
 
 use crate::scene::Mesh;
-use optix_host::cpu::kernel::RayQuery;
+use optix_host::cpu::traversal::RayQuery;
 
 type Handle = *mut c_void;
 

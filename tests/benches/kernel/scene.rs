@@ -1,6 +1,6 @@
 //! Meshes and rays of the bench.
 
-use optix_host::cpu::kernel::RayQuery;
+use optix_host::cpu::traversal::RayQuery;
 use optix_tests::meshes::Model;
 
 pub struct Mesh {

@@ -5,7 +5,7 @@ use super::checks::{self, Watch};
 use super::handle::{self, rows};
 use super::stack::{Left, Stack};
 use super::traversal::{AtHit, Traversal};
-use crate::cpu::kernel::{self, Accel, RayQuery};
+use crate::cpu::traversal::{self, Accel, RayQuery};
 use crate::sbt::Section;
 use core::cell::Cell;
 use core::ptr::NonNull;
@@ -258,7 +258,7 @@ impl<'c> Call<'c> {
             0 => None,
             handle => Some(launch.reached.traced.get(handle).unwrap_or_else(|| not_held("traversable"))),
         };
-        let Some(hit) = kernel::trace(root, &query, &mut Traversal { call: *self, ray }) else {
+        let Some(hit) = traversal::trace(root, &query, &mut Traversal { call: *self, ray }) else {
             if let Some(program) = &launch.ray(trace.miss_index).miss {
                 if let Some(watch) = self.watch {
                     watch.runs(trace.miss_index as usize);

@@ -1,7 +1,7 @@
 //! The checks of the checked mode: they find what the OptiX guide calls undefined, or leaves to the application.
 
 use super::Launch;
-use crate::cpu::kernel::{Aabb, InstancePath, Ray, Site, ray_flags};
+use crate::cpu::traversal::{Aabb, InstancePath, Ray, Site, ray_flags};
 use core::cell::RefCell;
 use glam::Vec3;
 use optix_device_rs::host::end::fail;

@@ -1,7 +1,7 @@
 //! Handles of instances. A handle is the instance's address, which stays the same because the launch keeps the owner of
 //! its structures.
 
-use crate::cpu::kernel::Placed;
+use crate::cpu::traversal::Placed;
 
 /// The handle of an instance. For the structure that an instance places, the handle is only compared.
 pub(super) fn of<T>(target: &T) -> u64 {

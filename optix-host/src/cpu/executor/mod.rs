@@ -20,7 +20,7 @@ mod stack;
 mod tests;
 mod traversal;
 
-use crate::cpu::kernel::Accel;
+use crate::cpu::traversal::Accel;
 use crate::plan::{Depths, Exceptions, Plan};
 use crate::sbt::{CallableProgram, Section, ShaderBindingTable};
 use crate::{Error, Result};

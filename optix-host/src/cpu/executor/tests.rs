@@ -2,7 +2,7 @@
 //! hand, on the frame.
 
 use super::*;
-use crate::cpu::kernel::{Accel, Gas, Ias, Instance};
+use crate::cpu::traversal::{Accel, Gas, Ias, Instance};
 use crate::geometry::{Aabb, BuildInput, CustomPrimitiveArray, GeometryFlags, Records, TriangleArray};
 use crate::sbt::HitProgram;
 use glam::Vec3;

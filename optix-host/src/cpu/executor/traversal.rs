@@ -3,7 +3,7 @@
 use super::call::{Call, RayAndHit};
 use super::checks;
 use super::handle::{self, rows};
-use crate::cpu::kernel::{self, Candidate, InstancePath, Programs, Reporter, Site};
+use crate::cpu::traversal::{self, Candidate, InstancePath, Programs, Reporter, Site};
 use core::cell::RefCell;
 use glam::Vec3;
 use optix_device_rs::host::{CallableCall, Executor, HitState, InstanceState, TraceCall};
@@ -126,16 +126,16 @@ fn ray_and_hit(site: &Site<'_>, ray: Ray, kind: u8, attributes: [u32; 8]) -> Ray
 }
 
 impl Programs for Traversal<'_> {
-    fn any_hit(&mut self, candidate: &Candidate<'_>) -> kernel::AnyHit {
+    fn any_hit(&mut self, candidate: &Candidate<'_>) -> traversal::AnyHit {
         let (call, site) = (&self.call, &candidate.site);
-        let Some(entry) = &call.hit_programs(site.sbt_index).anyhit else { return kernel::AnyHit::Accept };
+        let Some(entry) = &call.hit_programs(site.sbt_index).anyhit else { return traversal::AnyHit::Accept };
         let executor = AtHit { call, path: site.path, vertices: || candidate.triangle_vertices() };
         let ray = Ray { tmax: candidate.t, ..self.ray };
         let ray_and_hit = ray_and_hit(site, ray, candidate.hit_kind, candidate.attributes);
         match call.run(entry, &call.launch.sbt.hit, site.sbt_index as usize, ray_and_hit, &executor) {
-            Decision::Accept => kernel::AnyHit::Accept,
-            Decision::Ignore => kernel::AnyHit::Ignore,
-            Decision::Terminate => kernel::AnyHit::Terminate,
+            Decision::Accept => traversal::AnyHit::Accept,
+            Decision::Ignore => traversal::AnyHit::Ignore,
+            Decision::Terminate => traversal::AnyHit::Terminate,
         }
     }
 
@@ -155,7 +155,7 @@ impl Programs for Traversal<'_> {
 
     #[cold]
     #[inline(never)]
-    fn no_ray(&mut self, path: &InstancePath<'_>, object_ray: &kernel::Ray) {
+    fn no_ray(&mut self, path: &InstancePath<'_>, object_ray: &traversal::Ray) {
         if self.call.launch.checked {
             checks::no_ray(path, object_ray);
         }

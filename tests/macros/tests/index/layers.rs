@@ -196,5 +196,5 @@ fn arrows_are_found_in_every_form() {
         upward(module, root_names(text, 1), &reexports).into_iter().map(|(_, to)| to).collect::<Vec<_>>()
     };
     assert_eq!(up("scene", "use crate::{Device, Error};"), ["device"]);
-    assert_eq!(up("cpu", "use crate::optix::driver; use crate::cpu::kernel; use crate::plan::Plan;"), ["optix"]);
+    assert_eq!(up("cpu", "use crate::optix::driver; use crate::cpu::traversal; use crate::plan::Plan;"), ["optix"]);
 }

@@ -1,4 +1,4 @@
-//! Tests of the kernel, and what they share.
+//! Tests of traversal and intersection, and what they share.
 
 mod decisions;
 mod far;

@@ -1,4 +1,4 @@
-//! The traversal and intersection kernel of the CPU executor.
+//! Structures of the CPU executor, and how rays traverse them.
 //!
 //! It has OptiX's semantics (guide 5, 7.3, 13) and knows nothing of shaders: it calls them through [`Programs`].
 //!

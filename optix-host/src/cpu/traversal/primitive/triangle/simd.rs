@@ -1,11 +1,11 @@
-//! The vector form of the triangle test, in plain Rust and for AVX2: see [`simd`](crate::cpu::kernel::simd).
+//! The vector form of the triangle test, in plain Rust and for AVX2: see [`simd`](crate::cpu::traversal::simd).
 
 use super::intersect::{Block, EDGE_ABSOLUTE, EDGE_RELATIVE, Sheared};
-use crate::cpu::kernel::bvh::WIDTH;
-use crate::cpu::kernel::ray::ShearRay;
+use crate::cpu::traversal::bvh::WIDTH;
+use crate::cpu::traversal::ray::ShearRay;
 #[cfg(target_arch = "x86_64")]
-use crate::cpu::kernel::simd::Avx2;
-use crate::cpu::kernel::simd::{Portable, max, min};
+use crate::cpu::traversal::simd::Avx2;
+use crate::cpu::traversal::simd::{Portable, max, min};
 
 /// What an instruction set does with triangles.
 pub trait TriangleSimd {
@@ -60,8 +60,8 @@ impl TriangleSimd for Avx2 {
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
     use super::*;
-    use crate::cpu::kernel::bvh::Lanes;
-    use crate::cpu::kernel::simd::load;
+    use crate::cpu::traversal::bvh::Lanes;
+    use crate::cpu::traversal::simd::load;
     use std::arch::x86_64::*;
 
     #[inline]

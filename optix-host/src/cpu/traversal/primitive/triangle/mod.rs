@@ -6,13 +6,13 @@ mod simd;
 pub use simd::TriangleSimd;
 
 use super::{LeafRay, Leaves, Primitives};
-use crate::cpu::kernel::bvh::{Aabb, Bvh, Shape, WIDTH};
-use crate::cpu::kernel::candidate::Offer;
-use crate::cpu::kernel::flags::Verdict;
-use crate::cpu::kernel::gas::Gas;
-use crate::cpu::kernel::program::{Candidate, Hit};
-use crate::cpu::kernel::ray::{SHRINK, ShearRay};
-use crate::cpu::kernel::simd::Simd;
+use crate::cpu::traversal::bvh::{Aabb, Bvh, Shape, WIDTH};
+use crate::cpu::traversal::candidate::Offer;
+use crate::cpu::traversal::flags::Verdict;
+use crate::cpu::traversal::gas::Gas;
+use crate::cpu::traversal::program::{Candidate, Hit};
+use crate::cpu::traversal::ray::{SHRINK, ShearRay};
+use crate::cpu::traversal::simd::Simd;
 use crate::geometry::{BuildInput, PrimitiveArray, TriangleArray};
 use glam::DVec3;
 use intersect::{Block, Sheared, TriangleHit};
@@ -189,7 +189,7 @@ impl Gas {
         Some(if has_area(&corners) { corners } else { [[f32::NAN; 3]; 3] })
     }
 
-    /// The corners of the triangle in a lane of a block; see [`Found::slot`](crate::cpu::kernel::state::Found::slot).
+    /// The corners of the triangle in a lane of a block; see [`Found::slot`](crate::cpu::traversal::state::Found::slot).
     #[inline]
     fn triangle_in(&self, slot: u32) -> Option<[[f32; 3]; 3]> {
         let Primitives::Triangles(triangles) = &self.primitives else { return None };

@@ -1,12 +1,12 @@
 //! Custom primitives: boxes, and a program that says what is in them.
 
 use super::{LeafRay, Leaves, Primitives};
-use crate::cpu::kernel::bvh::{Aabb, Bvh, SINGLE_LEAF};
-use crate::cpu::kernel::candidate::Sink;
-use crate::cpu::kernel::flags::Verdict;
-use crate::cpu::kernel::gas::Gas;
-use crate::cpu::kernel::program::Reporter;
-use crate::cpu::kernel::simd::Simd;
+use crate::cpu::traversal::bvh::{Aabb, Bvh, SINGLE_LEAF};
+use crate::cpu::traversal::candidate::Sink;
+use crate::cpu::traversal::flags::Verdict;
+use crate::cpu::traversal::gas::Gas;
+use crate::cpu::traversal::program::Reporter;
+use crate::cpu::traversal::simd::Simd;
 use crate::geometry::{BuildInput, CustomPrimitiveArray};
 
 /// The boxes of a structure. A leaf's payload is the primitive, counted over all inputs.

@@ -1,4 +1,4 @@
-//! What the kernel asks of the shaders, and what it tells them.
+//! What a traversal asks of the shaders, and what it tells them.
 
 use super::candidate::{Offer, Sink};
 use super::flags::Verdict;

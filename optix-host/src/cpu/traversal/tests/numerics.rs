@@ -8,7 +8,7 @@ use super::super::primitive::triangle::intersect::{self as triangle, Block, Shea
 use super::super::ray::{Axis, BoxRay, Frame, ShearRay};
 use super::super::simd::Task;
 use super::*;
-use crate::cpu::kernel::simd::Portable;
+use crate::cpu::traversal::simd::Portable;
 
 /// A random float of either sign over the given binary exponents; now and then 0 or a neighbour of a power of two.
 fn float(random: &mut Random, low: i32, high: i32) -> f32 {
