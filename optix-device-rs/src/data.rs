@@ -193,7 +193,7 @@ unsafe impl DeviceData for Traversable {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` can't be a plain field that crosses from host to device",
     label = "neither plain data nor known to be a view",
-    note = "plain data are numbers (`u32`, not `usize`, whose size is the machine's), glam vectors, arrays of these, and your `#[repr(C)]` structs of these with `#[derive(Clone, Copy, DeviceData)]`",
+    note = "plain data are numbers (`u32`, not `usize`, whose size is the machine's), glam vectors, arrays of these, and your `#[repr(C)]` structs of these with `#[derive(Clone, Copy, DeviceData)]`; the elements of a `Vec`, `Box` or `String` are in the host's memory, so they go into a buffer, and the field is a `Slice` of it",
     note = "if the type holds a view (`Slice`, `Traversable`, `Instances`, `Callable` and their kin), perhaps under another name, put `#[view]` on the field"
 )]
 pub unsafe trait Plain: DeviceData {

@@ -38,7 +38,7 @@ impl WordBuffer {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` can't travel in a payload, in attributes or in a call",
     label = "has no encoding in 32-bit words",
-    note = "use numbers (`u32`, not `usize`, whose size is the machine's), `bool`, a glam type, a view such as `Slice`, an `Option`, pair or array of these, or your struct of these with `#[derive(Clone, Copy, Words)]`"
+    note = "use numbers (`u32`, not `usize`, whose size is the machine's), `bool`, a glam type, a view such as `Slice`, an `Option`, pair or array of these, or your struct of these with `#[derive(Clone, Copy, Words)]`; the elements of a `Vec`, `Box` or `String` are in the host's memory, so they go into a buffer, and the field is a `Slice` of it"
 )]
 pub trait Words: Copy + 'static {
     /// How many 32-bit words the value takes.
