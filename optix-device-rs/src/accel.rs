@@ -21,9 +21,9 @@
 //! ```
 
 use crate::data::DeviceData;
+use crate::intrinsics::{Private, check};
 use crate::layout::Layout;
-use crate::machine::check;
-use crate::program::{Context, Here, InstanceHandle};
+use crate::program::{Context, InstanceHandle};
 use crate::view::OfLaunch;
 use crate::words::{FromRaw, words_of_raw};
 
@@ -69,9 +69,9 @@ impl Instances {
     pub fn get<C: Context>(self, context: &C, index: u32) -> InstanceHandle<'_> {
         let message = format_args!("instance {index} is out of range: the structure has {}", self.len);
         check(index, self.len(), message);
-        let cx = context.machine(Here(()));
+        let invocation = context.invocation(Private(()));
         // SAFETY: the structure has such an instance, and was built for this (`from_raw`).
-        InstanceHandle::new(*cx, unsafe { cx.instance_traversable_from_ias(self.ias, index) })
+        InstanceHandle::new(*invocation, unsafe { invocation.instance_traversable_from_ias(self.ias, index) })
     }
 }
 

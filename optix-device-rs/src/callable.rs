@@ -223,7 +223,7 @@ impl<F, K> Callables<F, K> {
     pub fn get(self, index: u32) -> Callable<F, K> {
         let len = self.len;
         let message = format_args!("callable {index} is out of range: the table has {len}");
-        crate::machine::check(index, len, message);
+        crate::intrinsics::check(index, len, message);
         Callable { index: self.first + index, types: PhantomData, of: OfLaunch::NEW }
     }
 }

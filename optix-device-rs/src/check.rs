@@ -3,13 +3,12 @@
 //! Not for users; the macros refer to these by path.
 
 use crate::payload::{Part, Payload};
-use crate::primitive::{Attributes, Primitive, PrimitiveType, Reported};
-use crate::program::{AccelHandle, Face, HitKind, InstanceHandle, Transform, TransformHandle};
-use crate::ray::{Ray, RayFlags, Traversable};
-use crate::spawn::SurfacePoint;
+use crate::primitive::{Attributes, Primitive, Reported};
+use crate::program::{AccelHandle, InstanceHandle};
+use crate::ray::{RayFlags, Traversable};
 use core::fmt::Debug;
 use core::marker::PhantomData;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
 // ---- Views ---------------------------------------------------------------------------------------------------------
 
@@ -164,26 +163,8 @@ impl<T> ShowName for Show<'_, T> {
 
 // ---- Device functions ----------------------------------------------------------------------------------------------
 
-/// Device functions where they are not allowed: each exists for the message it fails with, which says where it belongs.
-/// The table of legal calls is guide 13; `tests/macros/device_functions.tsv` lists what the contexts have of it.
-macro_rules! not_allowed {
-    ($allowed:ident: $($context:ident<P $(, $a:ident)?>),+; $body:tt) => {
-        $(not_allowed! { @context $allowed, $context<P $(, $a)?>, $body })+
-    };
-    (@context $allowed:ident, $context:ident<P $(, $a:ident)?>, { $($name:ident($($argument:ty),*) -> $result:ty;)* }) => {
-        impl<P $(, $a)?> crate::program::$context<P $(, $a)?> {
-            $(
-                #[doc(hidden)]
-                pub fn $name(&self, $(_: $argument),*) -> $result
-                where
-                    Self: $allowed,
-                {
-                    unreachable!()
-                }
-            )*
-        }
-    };
-}
+// What the methods of the contexts ask for that are no device functions of theirs: each trait exists for the message, which says
+// where the function belongs. Which contexts these are: `intrinsics/table.rs`.
 
 /// The context of a program that may trace rays.
 #[diagnostic::on_unimplemented(
@@ -201,34 +182,6 @@ pub trait MayTrace {}
 )]
 pub trait IsContinuationCallable {}
 
-macro_rules! may_not_trace {
-    ($bound:ident: $($context:ident<P $(, $a:ident)?>),*) => {$(
-        impl<P $(, $a)?> crate::program::$context<P $(, $a)?> {
-            #[doc(hidden)]
-            pub fn trace<R: Payload>(&self, _: Traversable, _: Ray, _: R::FromCaller) -> R::AtCaller
-            where
-                Self: $bound,
-            {
-                unreachable!()
-            }
-            #[doc(hidden)]
-            pub fn trace_without_closesthit<R: Payload>(
-                &self,
-                _: Traversable,
-                _: Ray,
-                _: R::FromCaller,
-            ) -> R::AtCaller
-            where
-                Self: $bound,
-            {
-                unreachable!()
-            }
-        }
-    )*};
-}
-may_not_trace!(MayTrace: AnyHit<P, A>, Intersection<P, A>, Exception<P>);
-may_not_trace!(IsContinuationCallable: DirectCallable<P>);
-
 /// The context of a program that may throw.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` can't throw: it runs because something was thrown",
@@ -236,16 +189,6 @@ may_not_trace!(IsContinuationCallable: DirectCallable<P>);
     note = "the launch index has ended already: write what is to be known to a `SliceMut` of the launch parameters"
 )]
 pub trait MayThrow {}
-impl<P> crate::program::Exception<P> {
-    #[doc(hidden)]
-    pub fn throw<E>(&self, _: E) -> !
-    where
-        Self: MayThrow,
-    {
-        unreachable!()
-    }
-}
-
 /// The context of a program that is told of an exception.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not told of exceptions",
@@ -253,13 +196,6 @@ impl<P> crate::program::Exception<P> {
     note = "write a program with `#[exception]`, and name it in `pipeline!`: `exception: report`"
 )]
 pub trait HasException {}
-not_allowed! {
-    HasException: RayGen<P>, Intersection<P, A>, AnyHit<P, A>, ClosestHit<P, A>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>; {
-        raised() -> ();
-        exception_code() -> i32;
-        line_info() -> Option<&'static core::ffi::CStr>;
-    }
-}
 
 /// The context of a program that runs for a ray.
 #[diagnostic::on_unimplemented(
@@ -269,15 +205,6 @@ not_allowed! {
     note = "a callable knows of a ray, a primitive or a hit only what its caller passes: give it an argument more"
 )]
 pub trait HasRay {}
-not_allowed! { HasRay: RayGen<P>, DirectCallable<P>, ContinuationCallable<P>, Exception<P>; {
-    world_ray_origin() -> Vec3;
-    world_ray_direction() -> Vec3;
-    ray_tmin() -> f32;
-    ray_tmax() -> f32;
-    ray_time() -> f32;
-    ray_flags() -> RayFlags;
-    ray_visibility_mask() -> u8;
-} }
 
 /// The context of a program that runs for a primitive.
 #[diagnostic::on_unimplemented(
@@ -286,23 +213,6 @@ not_allowed! { HasRay: RayGen<P>, DirectCallable<P>, ContinuationCallable<P>, Ex
     note = "what the caller of `trace` needs to know about a hit, the closest-hit program returns in the payload"
 )]
 pub trait HasPrimitive {}
-not_allowed! { HasPrimitive: RayGen<P>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>, Exception<P>; {
-    primitive_index() -> u32;
-    sbt_gas_index() -> u32;
-    instance_id() -> Option<u32>;
-    instance_index() -> u32;
-    gas_handle() -> AccelHandle<'_>;
-    transform_list_size() -> u32;
-    transform_list_handle(u32) -> Option<TransformHandle<'_>>;
-    object_to_world() -> Transform;
-    world_to_object() -> Transform;
-    point_to_world(Vec3) -> Vec3;
-    vector_to_world(Vec3) -> Vec3;
-    normal_to_world(Vec3) -> Vec3;
-    point_to_object(Vec3) -> Vec3;
-    vector_to_object(Vec3) -> Vec3;
-    normal_to_object(Vec3) -> Vec3;
-} }
 
 /// The context of a program that has its ray in object space.
 #[diagnostic::on_unimplemented(
@@ -311,10 +221,6 @@ not_allowed! { HasPrimitive: RayGen<P>, Miss<P>, DirectCallable<P>, Continuation
     note = "in a closest-hit program map it: `hit.world_to_object().point(hit.world_ray_origin())`, `.vector(..)` for the direction"
 )]
 pub trait HasObjectRay {}
-not_allowed! { HasObjectRay: RayGen<P>, ClosestHit<P, A>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>, Exception<P>; {
-    object_ray_origin() -> Vec3;
-    object_ray_direction() -> Vec3;
-} }
 
 /// The context of a program that runs for a hit.
 #[diagnostic::on_unimplemented(
@@ -323,15 +229,6 @@ not_allowed! { HasObjectRay: RayGen<P>, ClosestHit<P, A>, Miss<P>, DirectCallabl
     note = "an intersection program says what a hit carries: `isect.report(t, kind, attributes)`; the caller of `trace` learns of a hit through the payload"
 )]
 pub trait HasHit {}
-not_allowed! { HasHit: RayGen<P>, Intersection<P, A>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>, Exception<P>; {
-    attributes() -> ();
-    hit_kind() -> HitKind;
-    primitive_type() -> PrimitiveType;
-    barycentrics() -> Vec2;
-    face() -> Face;
-    vertices() -> [Vec3; 3];
-    surface_point() -> SurfacePoint;
-} }
 
 /// The context of a program that may report hits.
 #[diagnostic::on_unimplemented(
@@ -341,21 +238,6 @@ not_allowed! { HasHit: RayGen<P>, Intersection<P, A>, Miss<P>, DirectCallable<P>
 )]
 pub trait MayReport {}
 
-macro_rules! may_not_report {
-    ($($context:ident<P $(, $a:ident)?>),*) => {$(
-        impl<P $(, $a)?> crate::program::$context<P $(, $a)?> {
-            #[doc(hidden)]
-            pub fn report<T: Attributes>(&self, _: f32, _: u8, _: T) -> bool
-            where
-                Self: MayReport,
-            {
-                unreachable!()
-            }
-        }
-    )*};
-}
-may_not_report!(RayGen<P>, AnyHit<P, A>, ClosestHit<P, A>, Miss<P>, DirectCallable<P>, ContinuationCallable<P>, Exception<P>);
-
 /// The context of a program that ends by a call, of which there is none.
 #[diagnostic::on_unimplemented(
     message = "what happens to a hit is not decided by a call",
@@ -363,10 +245,6 @@ may_not_report!(RayGen<P>, AnyHit<P, A>, ClosestHit<P, A>, Miss<P>, DirectCallab
     note = "so what it writes to the payload counts, whatever it decides (guide 13.13)"
 )]
 pub trait DecidesByCall {}
-not_allowed! { DecidesByCall: AnyHit<P, A>, Intersection<P, A>, ClosestHit<P, A>, Miss<P>, RayGen<P>; {
-    ignore_intersection() -> ();
-    terminate_ray() -> ();
-} }
 
 /// A ray that says itself whether its closest-hit program runs, of which there is none.
 #[diagnostic::on_unimplemented(

@@ -60,6 +60,10 @@
 #[cfg(not(target_arch = "nvptx64"))]
 extern crate std;
 
+#[doc(hidden)]
+#[macro_use]
+pub mod intrinsics;
+
 pub mod accel;
 pub mod callable;
 #[doc(hidden)]
@@ -70,8 +74,6 @@ pub mod exception;
 pub mod host;
 pub mod layout;
 pub mod limits;
-#[doc(hidden)]
-pub mod machine;
 pub mod math;
 pub mod params;
 pub mod payload;
@@ -98,7 +100,7 @@ mod sealed {
 /// What the macros' output refers to; not for users.
 #[doc(hidden)]
 pub mod macro_support {
-    pub use crate::machine::Cx;
+    pub use crate::intrinsics::Invocation;
     pub use crate::program::entry;
     pub use core;
     pub use glam;
@@ -108,5 +110,5 @@ pub mod macro_support {
 #[cfg(target_arch = "nvptx64")]
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
-    machine::trap()
+    intrinsics::trap()
 }

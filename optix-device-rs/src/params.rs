@@ -1,7 +1,7 @@
 //! Launch parameters (guide 6.5, 10).
 
 use crate::data::DeviceData;
-use crate::machine::ParamsBase;
+use crate::intrinsics::ParamsBase;
 
 /// A launch-parameter struct; made by `#[launch_params]`.
 ///

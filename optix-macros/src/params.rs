@@ -187,7 +187,7 @@ fn view(model: &Struct) -> TokenStream {
     let methods = model.fields.iter().map(|field| {
         let (vis, member, ty) = (&field.vis, &field.member, &field.ty);
         let docs = docs_or(&field.attrs, || format!("Field `{}` of [`{}`].", field.name(), model.name()));
-        let load = quote!(#krate::machine::load_param::<#ident, #ty, { __core::mem::offset_of!(#ident, #member) }>);
+        let load = quote!(#krate::intrinsics::load_param::<#ident, #ty, { __core::mem::offset_of!(#ident, #member) }>);
         quote! {
             #docs
             #[inline(always)]
@@ -224,9 +224,9 @@ fn view(model: &Struct) -> TokenStream {
         #[automatically_derived]
         impl __core::marker::Copy for #view<'_> {}
         #[automatically_derived]
-        impl<'a> __core::convert::From<#krate::machine::ParamsBase<'a, #ident>> for #view<'a> {
+        impl<'a> __core::convert::From<#krate::intrinsics::ParamsBase<'a, #ident>> for #view<'a> {
             #[inline(always)]
-            fn from(__base: #krate::machine::ParamsBase<'a, #ident>) -> Self {
+            fn from(__base: #krate::intrinsics::ParamsBase<'a, #ident>) -> Self {
                 Self { __base }
             }
         }
@@ -235,7 +235,7 @@ fn view(model: &Struct) -> TokenStream {
         #[doc = #doc]
         #vis struct #view<'a> {
             #[doc(hidden)]
-            __base: #outside::machine::ParamsBase<'a, #ident>,
+            __base: #outside::intrinsics::ParamsBase<'a, #ident>,
         }
         #impls
     }

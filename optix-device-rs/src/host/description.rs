@@ -23,7 +23,7 @@ impl Entry {
     /// Runs the program on a frame. Programs other than any-hit return [`Decision::Accept`].
     ///
     /// # Safety
-    /// What [`Cx::new`](crate::machine::Cx::new) asks for.
+    /// What [`Invocation::new`](crate::intrinsics::Invocation::new) asks for.
     #[inline(always)]
     pub unsafe fn run(&self, frame: &Frame<'_>) -> Decision {
         // SAFETY: the caller's.

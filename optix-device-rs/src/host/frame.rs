@@ -1,6 +1,7 @@
 //! A program call on the host: what the program can see, and whom it asks.
 
-use crate::machine::TraceCall;
+use super::{Rule, end};
+use crate::intrinsics::TraceCall;
 use crate::ray::Ray;
 use crate::words::WordBuffer;
 use core::any::TypeId;
@@ -8,6 +9,7 @@ use core::cell::Cell;
 use core::ptr::NonNull;
 use glam::{UVec3, Vec3};
 use std::ffi::CString;
+use std::format;
 
 /// What a hit, or a candidate, tells its program.
 #[derive(Clone, Copy, Debug)]
@@ -158,41 +160,75 @@ pub trait PayloadWatch {
     fn gives(&self, fields: &'static [usize]);
 }
 
-/// What a program asks of the executor that runs it.
+/// What a program asks of the executor that runs it. What an executor does not have ends the launch index with the name of the
+/// function: [`no_answer`].
+#[expect(unused_variables, reason = "what has no answer reads no arguments")]
 pub trait Executor {
     /// Traces a ray; `payload` goes in and comes back.
-    fn trace(&self, call: &TraceCall, payload: &mut WordBuffer);
+    fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
+        no_answer("trace")
+    }
     /// Calls a callable; `words` are its arguments, then its result.
-    fn call(&self, call: &CallableCall, words: &mut WordBuffer);
+    fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
+        no_answer("call")
+    }
     /// Reports a hit from an intersection program; true if it was accepted.
-    fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool;
+    fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool {
+        no_answer("report")
+    }
     /// The end of the ray's interval as an intersection program sees it (guide 13.5): changes while it reports.
-    fn interval_end(&self) -> f32;
+    fn interval_end(&self) -> f32 {
+        no_answer("ray_tmax")
+    }
     /// The vertices of the triangle hit, in object space.
-    fn triangle_vertices(&self) -> [Vec3; 3];
+    fn triangle_vertices(&self) -> [Vec3; 3] {
+        no_answer("vertices")
+    }
     /// The GAS of the primitive.
-    fn gas_traversable_handle(&self) -> u64;
+    fn gas_traversable_handle(&self) -> u64 {
+        no_answer("gas_handle")
+    }
     /// Instances between the root of the trace and the primitive.
-    fn transform_list_size(&self) -> u32;
+    fn transform_list_size(&self) -> u32 {
+        no_answer("transform_list_size")
+    }
     /// The handle of one of them, 0 nearest the root.
-    fn transform_list_handle(&self, index: u32) -> u64;
+    fn transform_list_handle(&self, index: u32) -> u64 {
+        no_answer("transform_list_handle")
+    }
     /// The handle of an instance of an IAS.
     ///
     /// # Safety
     /// `ias` is the handle of an IAS of this launch, which has an instance `index`.
-    unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64;
+    unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
+        no_answer("Instances::get")
+    }
     /// What an instance's handle tells.
     ///
     /// # Safety
     /// `handle` came from this launch.
-    unsafe fn instance(&self, handle: u64) -> InstanceState;
+    unsafe fn instance(&self, handle: u64) -> InstanceState {
+        no_answer("InstanceHandle")
+    }
     /// The vertices of a triangle, in object space.
     ///
     /// # Safety
     /// `gas` is the handle of a GAS of this launch, which has such a triangle.
-    unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3];
+    unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3] {
+        no_answer("TriangleVertices::get")
+    }
     /// Three rows.
-    fn object_to_world(&self) -> [[f32; 4]; 3];
+    fn object_to_world(&self) -> [[f32; 4]; 3] {
+        no_answer("object_to_world")
+    }
     /// Three rows.
-    fn world_to_object(&self) -> [[f32; 4]; 3];
+    fn world_to_object(&self) -> [[f32; 4]; 3] {
+        no_answer("world_to_object")
+    }
+}
+
+/// Ends the launch index: the running program asks what its executor can't tell, by a function of this name.
+#[cold]
+pub fn no_answer(function: &str) -> ! {
+    end::fail(Rule::Kind, format!("`{function}` has no answer in a program of this kind"))
 }

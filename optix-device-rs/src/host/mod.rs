@@ -11,14 +11,16 @@ mod rule;
 pub mod shared;
 mod twin;
 
-pub use crate::machine::TraceCall;
+pub use crate::intrinsics::TraceCall;
 pub use crate::primitive::PrimitiveType;
 pub use callable::{CallableRecord, CallableTable};
 pub use description::{
     CallableDescription, Entry, ExceptionsDescription, HitGroupDescription, HitPrograms, ParamsDescription,
     PayloadDescription, PipelineDescription, ProgramDescription, RayDescription, RecordLayout,
 };
-pub use frame::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState, PayloadWatch, Turn};
+pub use frame::{
+    CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState, PayloadWatch, Turn, no_answer,
+};
 pub use memory::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, MemoryError, TriangleTable, World};
 pub use reach::{ByHandle, Handle, Reach};
 pub(crate) use reach::{memory, name_of};

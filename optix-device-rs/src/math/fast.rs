@@ -18,7 +18,7 @@ macro_rules! instructions {
         #[inline(always)]
         pub fn $name(x: f32) -> f32 {
             #[cfg(target_arch = "nvptx64")]
-            return crate::machine::approximate::$name(x);
+            return crate::intrinsics::approximate::$name(x);
             #[cfg(not(target_arch = "nvptx64"))]
             return $host(x);
         }

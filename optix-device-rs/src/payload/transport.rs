@@ -1,8 +1,8 @@
 //! How a payload gets from party to party.
 
 use super::Part;
+use crate::intrinsics::{Invocation, TraceCall, UNWRITTEN, unwritten};
 use crate::limits::MAX_PAYLOAD_WORDS;
-use crate::machine::{Cx, TraceCall, UNWRITTEN, unwritten};
 use crate::sealed::Sealed;
 use crate::words::{WordBuffer, Words, part, part_mut};
 use core::mem::MaybeUninit;
@@ -17,7 +17,7 @@ pub trait Transport: Sealed + 'static {
     /// # Safety
     /// The call is of a ray whose payload has the two parts, and the program that runs may trace.
     #[doc(hidden)]
-    unsafe fn trace<From: Part, At: Part>(cx: &Cx, call: &TraceCall, given: From) -> At;
+    unsafe fn trace<From: Part, At: Part>(invocation: &Invocation, call: &TraceCall, given: From) -> At;
 
     /// The payload of the running program, where it is in memory; otherwise nothing.
     ///
@@ -25,7 +25,7 @@ pub trait Transport: Sealed + 'static {
     /// The running program's payload travels by this transport, and there is no other reference to it.
     #[doc(hidden)]
     #[expect(clippy::mut_from_ref, reason = "the memory is the caller's, not the context's")]
-    unsafe fn memory(cx: &Cx) -> &mut [u32];
+    unsafe fn memory(invocation: &Invocation) -> &mut [u32];
 
     /// Puts what the running program returned into [`Transport::memory`]. A method, and by reference: so it is resolved late
     /// and leaves the code of payloads in registers as it would be without it (the golden tests tell).
@@ -34,9 +34,9 @@ pub trait Transport: Sealed + 'static {
     /// As for [`Transport::memory`].
     #[doc(hidden)]
     #[inline(always)]
-    unsafe fn give<From: Part>(cx: &Cx, given: &From) {
+    unsafe fn give<From: Part>(invocation: &Invocation, given: &From) {
         // SAFETY: the caller's.
-        given.store(unsafe { Self::memory(cx) });
+        given.store(unsafe { Self::memory(invocation) });
     }
 }
 
@@ -50,16 +50,16 @@ impl Transport for Registers {
     const POINTER: bool = false;
 
     #[inline(always)]
-    unsafe fn trace<From: Part, At: Part>(cx: &Cx, call: &TraceCall, given: From) -> At {
+    unsafe fn trace<From: Part, At: Part>(invocation: &Invocation, call: &TraceCall, given: From) -> At {
         let mut registers = WordBuffer([UNWRITTEN; MAX_PAYLOAD_WORDS]);
         given.store(&mut registers.0);
-        let registers = cx.trace(call, registers);
+        let registers = invocation.trace(call, registers);
         // SAFETY: the payload's flow was proved (`Payload`), and the programs of a ray are its own.
         unsafe { At::load(&registers.0) }
     }
 
     #[inline(always)]
-    unsafe fn memory(_: &Cx) -> &mut [u32] {
+    unsafe fn memory(_: &Invocation) -> &mut [u32] {
         &mut []
     }
 }
@@ -77,7 +77,7 @@ impl<const WORDS: usize> Transport for Pointer<WORDS> {
     const POINTER: bool = true;
 
     #[inline(always)]
-    unsafe fn trace<From: Part, At: Part>(cx: &Cx, call: &TraceCall, given: From) -> At {
+    unsafe fn trace<From: Part, At: Part>(invocation: &Invocation, call: &TraceCall, given: From) -> At {
         let mut memory = MaybeUninit::<Memory<WORDS>>::uninit();
         // SAFETY: any bytes are words.
         let memory = unsafe { unwritten(&mut memory) };
@@ -85,7 +85,7 @@ impl<const WORDS: usize> Transport for Pointer<WORDS> {
         let memory: *mut Memory<WORDS> = memory;
         let mut registers = WordBuffer::ZERO;
         memory.store(part_mut(&mut registers.0, 0, 2));
-        cx.trace(call, registers);
+        invocation.trace(call, registers);
         #[cfg(not(target_arch = "nvptx64"))]
         if !crate::host::end::goes_on() {
             // No program ran: zeros, as in registers.
@@ -98,8 +98,8 @@ impl<const WORDS: usize> Transport for Pointer<WORDS> {
     }
 
     #[inline(always)]
-    unsafe fn memory(cx: &Cx) -> &mut [u32] {
-        let registers = cx.payload(0b11);
+    unsafe fn memory(invocation: &Invocation) -> &mut [u32] {
+        let registers = invocation.payload(0b11);
         // SAFETY: the caller of trace stored an address, and its memory lives until trace returns.
         unsafe {
             let memory: *mut Memory<WORDS> = Words::load(part(&registers.0, 0, 2));

@@ -4,7 +4,7 @@
 //! To add a kind, write its file and name it below, where [`PrimitiveType`] is declared.
 
 mod custom;
-mod triangle;
+pub(crate) mod triangle;
 
 pub use custom::{Custom, Reported};
 pub use triangle::{OnTriangles, TriangleVertices, Triangles};

@@ -3,14 +3,16 @@
 use super::{Attributes, Primitive, PrimitiveType};
 use crate::check::FitsEverywhere;
 use crate::data::DeviceData;
+use crate::intrinsics::{Invocation, Private, check};
 use crate::layout::Layout;
-use crate::machine::check;
 #[cfg(target_arch = "nvptx64")]
 use crate::math::Math;
-use crate::program::{AnyHit, ClosestHit, Context, Face, Here, HitKind, Transform};
+use crate::program::{Context, Face, HitKind, Transform};
 use crate::spawn::{SurfacePoint, TINY, U, gamma};
 use crate::view::Slice;
 use crate::words::{FromRaw, Words, words_of_raw};
+#[cfg(target_arch = "nvptx64")]
+use core::arch::asm;
 use core::ops::RangeInclusive;
 use glam::{Vec2, Vec3};
 
@@ -85,52 +87,79 @@ pub unsafe trait OnTriangles {}
 // SAFETY: the attributes of the built-in intersection.
 unsafe impl OnTriangles for Triangles {}
 
-macro_rules! triangle_queries {
-    ($($name:ident),*) => {$(
-        // The bound is on the methods, not the impl: so its message is shown.
-        impl<P, A> $name<P, A> {
-            /// Weights of the second and third vertex (guide 13.4).
-            #[inline(always)]
-            pub fn barycentrics(&self) -> Vec2
-            where
-                A: OnTriangles,
-            {
-                self.cx.barycentrics()
+/// An intrinsic that gives three vertices, with what goes before its call. Needs `unsafe`: what it asks about is to be a
+/// triangle.
+#[cfg(target_arch = "nvptx64")]
+macro_rules! vertices {
+    ($($before:literal,)? call $call:literal $(, $name:ident = $class:ident $value:expr)*) => {{
+        let (a, b, c, d, e, f, g, h, i): (f32, f32, f32, f32, f32, f32, f32, f32, f32);
+        asm!(
+            "{{ .reg .f32 f<9>;",
+            $($before,)?
+            concat!("call (f0, f1, f2, f3, f4, f5, f6, f7, f8), ", $call, ";"),
+            "mov.b32 {a}, f0; mov.b32 {b}, f1; mov.b32 {c}, f2;",
+            "mov.b32 {d}, f3; mov.b32 {e}, f4; mov.b32 {f}, f5;",
+            "mov.b32 {g}, f6; mov.b32 {h}, f7; mov.b32 {i}, f8; }}",
+            $($name = in($class) $value,)*
+            a = out(reg32) a, b = out(reg32) b, c = out(reg32) c,
+            d = out(reg32) d, e = out(reg32) e, f = out(reg32) f,
+            g = out(reg32) g, h = out(reg32) h, i = out(reg32) i,
+            options(pure, nomem, nostack, preserves_flags)
+        );
+        [Vec3::new(a, b, c), Vec3::new(d, e, f), Vec3::new(g, h, i)]
+    }};
+}
+
+device_functions! {
+    in hit else HasHit {
+        /// Weights of the second and third vertex (guide 13.4).
+        "optixGetTriangleBarycentrics"
+        fn barycentrics(&self) -> Vec2 where A: OnTriangles {
+            ptx {
+                let (u, v): (f32, f32);
+                // SAFETY: the hit is a triangle's, by the context's type.
+                unsafe {
+                    asm!(
+                        "{{ .reg .f32 f<2>; call (f0, f1), _optix_get_triangle_barycentrics, ();",
+                        "mov.b32 {u}, f0; mov.b32 {v}, f1; }}",
+                        u = out(reg32) u,
+                        v = out(reg32) v,
+                        options(pure, nomem, nostack, preserves_flags)
+                    )
+                };
+                Vec2::new(u, v)
             }
-            /// Which side was hit (`optixIsFrontFaceHit`, `optixIsBackFaceHit`); an instance may flip it.
-            #[inline(always)]
-            pub fn face(&self) -> Face
-            where
-                A: OnTriangles,
-            {
-                self.hit_kind().side()
-            }
-            /// The triangle's vertices in object space (guide 13.9).
-            #[inline(always)]
-            pub fn vertices(&self) -> [Vec3; 3]
-            where
-                A: OnTriangles,
-            {
-                self.cx.triangle_vertices()
+            host {
+                let [u, v, ..] = self.frame().hit.attributes;
+                Vec2::new(f32::from_bits(u), f32::from_bits(v))
             }
         }
-    )*};
-}
-triangle_queries!(AnyHit, ClosestHit);
 
-impl<P, A> ClosestHit<P, A> {
-    /// The hit point in world space with its normal and error bound, to shade and to spawn rays from.
-    #[inline(always)]
-    pub fn surface_point(&self) -> SurfacePoint
-    where
-        A: OnTriangles,
-    {
-        SurfacePoint::of_triangle(
-            self.vertices(),
-            self.barycentrics(),
-            &self.object_to_world(),
-            &self.world_to_object(),
-        )
+        /// Which side was hit; an instance may flip it.
+        "optixIsFrontFaceHit()" "optixIsBackFaceHit()" "optixIsTriangleFrontFaceHit" "optixIsTriangleBackFaceHit"
+        fn face(&self) -> Face where A: OnTriangles {
+            self.hit_kind().side()
+        }
+
+        /// The triangle's vertices in object space (guide 13.9).
+        "optixGetTriangleVertexData"
+        fn vertices(&self) -> [Vec3; 3] where A: OnTriangles {
+            ptx {
+                // SAFETY: the hit is a triangle's, by the context's type.
+                unsafe { vertices!(call "_optix_get_triangle_vertex_data_current_hit, ()") }
+            }
+            host { self.frame().executor.triangle_vertices() }
+        }
+
+        /// The hit point in world space with its normal and error bound, to shade and to spawn rays from.
+        fn surface_point(&self) -> SurfacePoint where A: OnTriangles {
+            SurfacePoint::of_triangle(
+                self.vertices(),
+                self.barycentrics(),
+                &self.object_to_world(),
+                &self.world_to_object(),
+            )
+        }
     }
 }
 
@@ -189,7 +218,38 @@ impl TriangleVertices {
         let message = format_args!("triangle {primitive_index} is out of range: record {sbt_gas_index} has {count}");
         check(primitive_index, count, message);
         // SAFETY: the structure has such a triangle, and was built for this (`from_raw`).
-        unsafe { context.machine(Here(())).triangle_vertices_from_handle(self.gas, primitive_index, sbt_gas_index) }
+        unsafe {
+            context.invocation(Private(())).triangle_vertices_from_handle(self.gas, primitive_index, sbt_gas_index)
+        }
+    }
+}
+
+impl Invocation {
+    /// The vertices of a triangle of a structure (`optixGetTriangleVertexDataFromHandle`).
+    ///
+    /// # Safety
+    /// `gas` is of triangles and was built with random vertex access; `sbt_gas_index` is a record of one of its build
+    /// inputs, which has a triangle `primitive`.
+    #[inline(always)]
+    unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3] {
+        body! {
+            ptx {
+                // SAFETY: the caller's.
+                unsafe {
+                    vertices!(
+                        ".reg .f32 time; mov.f32 time, 0f00000000;",
+                        call "_optix_get_triangle_vertex_data_from_handle, ({gas}, {primitive}, {sbt}, time)",
+                        gas = reg64 gas,
+                        primitive = reg32 primitive,
+                        sbt = reg32 sbt_gas_index
+                    )
+                }
+            }
+            host {
+                // SAFETY: the caller's.
+                unsafe { self.frame().executor.triangle_vertices_from_handle(gas, primitive, sbt_gas_index) }
+            }
+        }
     }
 }
 

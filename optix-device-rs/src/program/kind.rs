@@ -1,6 +1,6 @@
 //! Hit kinds, and what any program may learn from one (guide 13.7).
 
-use crate::machine;
+use crate::intrinsics;
 use crate::primitive::PrimitiveType;
 use crate::words::Words;
 
@@ -39,14 +39,10 @@ impl HitKind {
         }
     }
 
-    /// For kinds of primitive, which have names for their hit kinds.
+    /// A hit's own.
+    #[inline(always)]
     pub(crate) const fn of_number(kind: u8) -> Self {
         Self(kind)
-    }
-
-    #[inline(always)]
-    pub(crate) const fn from_bits(kind: u32) -> Self {
-        Self(kind as u8)
     }
 
     /// The number: for a custom primitive what its intersection program reported.
@@ -58,7 +54,7 @@ impl HitKind {
     /// The kind of primitive (`optixGetPrimitiveType`).
     #[inline(always)]
     pub fn primitive_type(self) -> PrimitiveType {
-        machine::primitive_type_of(self.0)
+        intrinsics::primitive_type_of(self.0)
     }
 
     /// Which side was hit (`optixIsFrontFaceHit`, `optixIsBackFaceHit`); none for a custom primitive, which has no sides
@@ -71,7 +67,7 @@ impl HitKind {
     /// Which side of a built-in primitive was hit.
     #[inline(always)]
     pub(crate) fn side(self) -> Face {
-        if machine::is_back_face(self.0) { Face::Back } else { Face::Front }
+        if intrinsics::is_back_face(self.0) { Face::Back } else { Face::Front }
     }
 }
 

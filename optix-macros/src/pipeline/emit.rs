@@ -89,7 +89,7 @@ impl Entries<'_> {
             // SAFETY: the caller's frame is of this program.
             #[cfg(not(target_arch = "nvptx64"))]
             unsafe fn #host(__frame: &#krate::host::Frame<'_>) -> #krate::ray::Decision {
-                let __cx = unsafe { #krate::machine::Cx::new(__frame) };
+                let __cx = unsafe { #krate::intrinsics::Invocation::new(__frame) };
                 #call
             }
         });
@@ -102,14 +102,14 @@ impl Entries<'_> {
         };
         self.items.extend(if kind.is_callable() {
             quote! {
-                // SAFETY: `Cx::call_direct` and its kin call it, by this type, with a record of its own.
+                // SAFETY: `Invocation::call_direct` and its kin call it, by this type, with a record of its own.
                 #[cfg(target_arch = "nvptx64")]
                 #mark
                 #[unsafe(no_mangle)]
                 pub unsafe extern "C" fn #device(
                     __arguments: #krate::callable::Packed<<#signature as #krate::callable::Signature>::Arguments>,
                 ) -> #krate::callable::Packed<<#signature as #krate::callable::Signature>::Result> {
-                    let __cx = unsafe { #krate::machine::Cx::new() };
+                    let __cx = unsafe { #krate::intrinsics::Invocation::new() };
                     let (__context, __record) = unsafe { #enter(&__cx) };
                     let __arguments = __arguments.0;
                     #krate::callable::Packed(#run)
@@ -122,7 +122,7 @@ impl Entries<'_> {
                 #mark
                 #[unsafe(no_mangle)]
                 pub unsafe extern "ptx-kernel" fn #device() {
-                    let __cx = unsafe { #krate::machine::Cx::new() };
+                    let __cx = unsafe { #krate::intrinsics::Invocation::new() };
                     let _ = { #call };
                 }
             }

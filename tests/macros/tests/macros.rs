@@ -459,49 +459,13 @@ fn a_pipeline_describes_itself() {
 
 /// Runs an entry on a frame; gives its decision and the payload, or with what it traced a ray.
 fn run(entry: optix_device_rs::host::Entry, record: &Paint, payload: WordBuffer) -> (Decision, WordBuffer) {
-    use optix_device_rs::host::{CallableCall, ExceptionState, Executor, Frame, HitState, InstanceState, Turn};
-    use optix_device_rs::machine::TraceCall;
+    use optix_device_rs::host::{ExceptionState, Executor, Frame, HitState, Turn};
+    use optix_device_rs::intrinsics::TraceCall;
 
     struct Alone<'a>(&'a std::cell::Cell<WordBuffer>);
     impl Executor for Alone<'_> {
         fn trace(&self, _: &TraceCall, payload: &mut WordBuffer) {
             self.0.set(*payload);
-        }
-        fn call(&self, _: &CallableCall, _: &mut WordBuffer) {
-            unreachable!()
-        }
-        fn report(&self, _: f32, _: u8, _: usize, _: &WordBuffer) -> bool {
-            unreachable!()
-        }
-        fn interval_end(&self) -> f32 {
-            unreachable!()
-        }
-        fn triangle_vertices(&self) -> [Vec3; 3] {
-            unreachable!()
-        }
-        fn gas_traversable_handle(&self) -> u64 {
-            unreachable!()
-        }
-        fn transform_list_size(&self) -> u32 {
-            unreachable!()
-        }
-        fn transform_list_handle(&self, _: u32) -> u64 {
-            unreachable!()
-        }
-        unsafe fn instance_traversable_from_ias(&self, _: u64, _: u32) -> u64 {
-            unreachable!()
-        }
-        unsafe fn instance(&self, _: u64) -> InstanceState {
-            unreachable!()
-        }
-        unsafe fn triangle_vertices_from_handle(&self, _: u64, _: u32, _: u32) -> [Vec3; 3] {
-            unreachable!()
-        }
-        fn object_to_world(&self) -> [[f32; 4]; 3] {
-            unreachable!()
-        }
-        fn world_to_object(&self) -> [[f32; 4]; 3] {
-            unreachable!()
         }
     }
 

@@ -5,8 +5,8 @@ use optix_device_rs::prelude::*;
 pub struct Both<'a, P>(&'a DirectCallable<P>);
 
 impl<P> Context for Both<'_, P> {
-    fn machine(&self, here: optix_device_rs::program::Here) -> &optix_device_rs::machine::Cx {
-        self.0.machine(here)
+    fn invocation(&self, private: optix_device_rs::intrinsics::Private) -> &optix_device_rs::intrinsics::Invocation {
+        self.0.invocation(private)
     }
 }
 

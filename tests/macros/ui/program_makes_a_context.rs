@@ -4,7 +4,7 @@ use optix_device_rs::prelude::*;
 
 #[anyhit]
 pub fn alpha<P: Pipeline>(hit: &AnyHit<P, Triangles>) -> Decision {
-    let pretend = ClosestHit::<P, Triangles> { cx: hit.cx, types: hit.types };
+    let pretend = ClosestHit::<P, Triangles> { invocation: hit.invocation, types: hit.types };
     let _ = pretend.primitive_index();
     Decision::Accept
 }

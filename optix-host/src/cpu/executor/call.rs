@@ -288,31 +288,13 @@ impl<'c> Call<'c> {
     }
 }
 
-/// What programs without a hit may ask.
+/// What programs without a hit may ask: the trait's defaults end those that ask about one.
 impl Executor for Call<'_> {
     fn trace(&self, call: &TraceCall, payload: &mut WordBuffer) {
         Call::trace(self, call, payload);
     }
     fn call(&self, call: &CallableCall, words: &mut WordBuffer) {
         Call::call(self, call, words);
-    }
-    fn report(&self, _: f32, _: u8, _: usize, _: &WordBuffer) -> bool {
-        fail(Rule::Kind, "only an intersection program reports hits".into())
-    }
-    fn interval_end(&self) -> f32 {
-        fail(Rule::Kind, "only an intersection program has an interval that shrinks".into())
-    }
-    fn triangle_vertices(&self) -> [Vec3; 3] {
-        fail(Rule::Kind, "there is no triangle".into())
-    }
-    fn gas_traversable_handle(&self) -> u64 {
-        fail(Rule::Kind, "there is no primitive, so no GAS".into())
-    }
-    fn transform_list_size(&self) -> u32 {
-        fail(Rule::Kind, "there is no primitive, so no transform list".into())
-    }
-    fn transform_list_handle(&self, _: u32) -> u64 {
-        fail(Rule::Kind, "there is no primitive, so no transform list".into())
     }
     unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
         let placed = match self.launch.reached.read.get(ias) {
@@ -342,11 +324,5 @@ impl Executor for Call<'_> {
             Some(vertices) => vertices.map(Vec3::from_array),
             None => fail(Rule::TriangleIndex, format!("there is no triangle {primitive} of record {sbt_gas_index}")),
         }
-    }
-    fn object_to_world(&self) -> [[f32; 4]; 3] {
-        fail(Rule::Kind, "there is no hit, so no transform".into())
-    }
-    fn world_to_object(&self) -> [[f32; 4]; 3] {
-        fail(Rule::Kind, "there is no hit, so no transform".into())
     }
 }

@@ -11,7 +11,7 @@ use optix_device_rs::host::{
     CallableDescription, Entry, ExceptionsDescription, Frame, Handle, HitGroupDescription, ParamsDescription,
     PayloadDescription, PrimitiveType, ProgramDescription, RayDescription, RecordLayout, TraceCall,
 };
-use optix_device_rs::machine::Cx;
+use optix_device_rs::intrinsics::Invocation;
 use optix_device_rs::payload::Field;
 use optix_device_rs::prelude::{AnyHitMode, CullFaces, Decision, Ray, RayFlags, Slice};
 use optix_device_rs::words::WordBuffer;
@@ -34,8 +34,8 @@ struct Script {
     asks: Asks,
 }
 
-/// Given the program's context and the structure's handle.
-type Asks = fn(Cx, u64);
+/// Given the program's frame, whose executor it asks, and the structure's handle.
+type Asks = fn(&Frame<'_>, u64);
 
 /// What the ray-generation program calls.
 #[derive(Clone, Copy, PartialEq)]
@@ -85,56 +85,56 @@ fn script() -> Script {
     SCRIPT.get().unwrap()
 }
 
-/// The context of a hand-written program.
-fn cx(frame: &Frame<'_>) -> Cx {
+/// What a hand-written program asks by.
+fn invocation(frame: &Frame<'_>) -> Invocation {
     // SAFETY: it does not outlive the program call, and these programs read neither parameters nor record.
-    unsafe { Cx::new(frame) }
+    unsafe { Invocation::new(frame) }
 }
 
 macro_rules! programs {
-    ($($name:ident: |$cx:ident| $body:expr;)*) => {$(
+    ($($name:ident: |$frame:tt, $at:ident| $body:expr;)*) => {$(
         unsafe fn $name(frame: &Frame<'_>) -> Decision {
-            let $cx = cx(frame);
+            let ($frame, $at) = (frame, invocation(frame));
             $body;
             Decision::Accept
         }
     )*};
 }
 programs! {
-    raygen: |cx| {
-        call(cx);
-        (script().asks)(cx, script().call.traversable);
-        cx.trace(&script().call, WordBuffer::ZERO)
+    raygen: |frame, at| {
+        call(at);
+        (script().asks)(frame, script().call.traversable);
+        at.trace(&script().call, WordBuffer::ZERO)
     };
-    direct: |cx| {
+    direct: |_, at| {
         if let Called::Nested(deeper) = script().callable && deeper > 0 {
             SCRIPT.set(Some(Script { callable: Called::Nested(deeper - 1), ..script() }));
-            call(cx);
+            call(at);
         }
-        cx.set_payload(1, &WordBuffer([7; 32]));
+        at.set_payload(1, &WordBuffer([7; 32]));
     };
-    anyhit: |cx| cx.gives(script().anyhit_gives);
-    closesthit: |cx| {
-        cx.takes(script().closesthit_takes);
+    anyhit: |_, at| at.gives(script().anyhit_gives);
+    closesthit: |_, at| {
+        at.takes(script().closesthit_takes);
         if let Some(nested) = script().nested.checked_sub(1) {
             SCRIPT.set(Some(Script { nested, ..script() }));
-            cx.trace(&script().call, WordBuffer::ZERO);
+            at.trace(&script().call, WordBuffer::ZERO);
         }
-        cx.gives(script().closesthit_gives);
+        at.gives(script().closesthit_gives);
     };
-    miss: |cx| cx.gives(script().miss_gives);
-    intersection: |cx| cx.report(script().report.0, script().report.1, 0, &WordBuffer::ZERO);
+    miss: |_, at| at.gives(script().miss_gives);
+    intersection: |_, at| at.report(script().report.0, script().report.1, 0, &WordBuffer::ZERO);
 }
 
 /// Makes the script's call.
-fn call(cx: Cx) {
+fn call(at: Invocation) {
     // SAFETY: none is needed on the host.
     unsafe {
         match script().callable {
             Called::Nothing => {}
-            Called::Record(number, true) => assert_eq!(cx.call_direct::<fn(f32) -> u32>(number, (1.0,)), 7),
-            Called::Record(number, false) => drop(cx.call_direct::<fn(u32) -> u32>(number, (1,))),
-            Called::Nested(_) => drop(cx.call_direct::<fn(f32) -> u32>(CALLABLE, (1.0,))),
+            Called::Record(number, true) => assert_eq!(at.call_direct::<fn(f32) -> u32>(number, (1.0,)), 7),
+            Called::Record(number, false) => drop(at.call_direct::<fn(u32) -> u32>(number, (1,))),
+            Called::Nested(_) => drop(at.call_direct::<fn(f32) -> u32>(CALLABLE, (1.0,))),
         }
     }
 }
@@ -386,8 +386,8 @@ fn questions_without_an_answer() {
         assert!(rule == Rule::Held && message.contains("kept from another launch"), "{message}");
         // The triangle that is there.
         // SAFETY: as above.
-        let asks: Asks = |cx, gas| unsafe {
-            cx.triangle_vertices_from_handle(gas, 0, 0);
+        let asks: Asks = |frame, gas| unsafe {
+            frame.executor.triangle_vertices_from_handle(gas, 0, 0);
         };
         assert_eq!(run(false, checked, Script { asks, ..lawful(false) }), None);
     }
@@ -398,35 +398,35 @@ fn unsafe_asks() -> [(Rule, Asks); 12] {
     // SAFETY: the executor answers none of these, and says why.
     unsafe {
         [
-            (Rule::Kind, |cx, _| {
-                cx.report(1.0, 0, 0, &WordBuffer::ZERO);
+            (Rule::Kind, |frame, _| {
+                frame.executor.report(1.0, 0, 0, &WordBuffer::ZERO);
             }),
-            (Rule::Kind, |cx, _| {
-                cx.interval_end();
+            (Rule::Kind, |frame, _| {
+                frame.executor.interval_end();
             }),
-            (Rule::Kind, |cx, _| {
-                cx.triangle_vertices();
+            (Rule::Kind, |frame, _| {
+                frame.executor.triangle_vertices();
             }),
-            (Rule::Kind, |cx, _| {
-                cx.gas_traversable_handle();
+            (Rule::Kind, |frame, _| {
+                frame.executor.gas_traversable_handle();
             }),
-            (Rule::Kind, |cx, _| {
-                cx.transform_list_size();
+            (Rule::Kind, |frame, _| {
+                frame.executor.transform_list_size();
             }),
-            (Rule::Kind, |cx, _| {
-                cx.object_to_world();
+            (Rule::Kind, |frame, _| {
+                frame.executor.object_to_world();
             }),
-            (Rule::Held, |cx, gas| {
-                cx.instance_traversable_from_ias(gas, 0);
+            (Rule::Held, |frame, gas| {
+                frame.executor.instance_traversable_from_ias(gas, 0);
             }),
-            (Rule::InstanceHandle, |cx, _| {
-                cx.instance_id_from_handle(0);
+            (Rule::InstanceHandle, |frame, _| {
+                frame.executor.instance(0);
             }),
-            (Rule::TriangleIndex, |cx, gas| {
-                cx.triangle_vertices_from_handle(gas, 1, 0);
+            (Rule::TriangleIndex, |frame, gas| {
+                frame.executor.triangle_vertices_from_handle(gas, 1, 0);
             }),
-            (Rule::Held, |cx, _| {
-                cx.triangle_vertices_from_handle(u64::MAX, 0, 0);
+            (Rule::Held, |frame, _| {
+                frame.executor.triangle_vertices_from_handle(u64::MAX, 0, 0);
             }),
             (Rule::Index, |_, _| {
                 Slice::<u32>::EMPTY.get(0);

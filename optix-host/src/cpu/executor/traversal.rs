@@ -6,7 +6,7 @@ use super::handle::{self, rows};
 use crate::cpu::traversal::{self, Candidate, InstancePath, Programs, Reporter, Site};
 use core::cell::RefCell;
 use glam::Vec3;
-use optix_device_rs::host::{CallableCall, Executor, HitState, InstanceState, TraceCall};
+use optix_device_rs::host::{CallableCall, Executor, HitState, InstanceState, TraceCall, no_answer};
 use optix_device_rs::prelude::{Decision, Ray};
 use optix_device_rs::words::WordBuffer;
 
@@ -59,16 +59,10 @@ macro_rules! of_path {
 impl<V: Fn() -> Option<[[f32; 3]; 3]>> Executor for AtHit<'_, V> {
     of_path!();
 
-    fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool {
-        self.call.report(t, kind, count, attributes)
-    }
-    fn interval_end(&self) -> f32 {
-        self.call.interval_end()
-    }
     fn triangle_vertices(&self) -> [Vec3; 3] {
         match (self.vertices)() {
             Some(vertices) => vertices.map(Vec3::from_array),
-            None => self.call.triangle_vertices(),
+            None => no_answer("vertices"),
         }
     }
 }
@@ -97,9 +91,6 @@ impl Executor for AtPrimitive<'_, '_, '_, '_, '_> {
     }
     fn interval_end(&self) -> f32 {
         self.reporter.borrow().tmax()
-    }
-    fn triangle_vertices(&self) -> [Vec3; 3] {
-        self.call.triangle_vertices()
     }
 }
 

@@ -26,6 +26,14 @@ const KINDS: [Kind; 8] = [
     Kind { name: "continuation_callable", signature: "&ContinuationCallable<P>)", result: "" },
 ];
 
+/// The contexts of the kinds, in this order.
+pub fn contexts() -> [&'static str; 8] {
+    KINDS.map(|kind| {
+        let name = kind.signature.trim_start_matches('&');
+        name.split('<').next().unwrap_or(name)
+    })
+}
+
 /// What the programs refer to.
 const DECLARATIONS: &str = "\
 #[derive(Payload)]

@@ -201,3 +201,33 @@ fn device_functions_are_those_of_the_guide() {
     let theirs: Vec<_> = facts.lines().skip(1).map(|line| line.split('\t').collect::<Vec<_>>()).collect();
     assert_eq!(ours, theirs.iter().map(|row| (row[0].to_owned(), row[1..9].concat())).collect::<Vec<_>>());
 }
+
+/// So does the table in the device crate that the contexts' methods are made from. Functions that are generic are written out there,
+/// and only the programs above try them.
+#[test]
+fn device_functions_are_those_of_the_device_crate() {
+    const WRITTEN_OUT: [&str; 6] = [
+        "optixThrowException",
+        "optixTrace",
+        "optixGetAttribute_0...7",
+        "optixIsTriangleHit",
+        "optixReportIntersection",
+        "optixGetExceptionDetail_0...7",
+    ];
+    let contexts = device_functions::contexts();
+    let marks = |has: &[&str]| contexts.map(|context| if has.contains(&context) { '1' } else { '0' });
+    let rows: BTreeMap<&str, String> = optix_device_rs::intrinsics::TABLES
+        .iter()
+        .flat_map(|rows| rows.iter().map(|row| (row.optix, marks(row.contexts).iter().collect())))
+        .collect();
+    for row in table("device_functions.tsv") {
+        let (name, kinds, call) = (row[0].as_str(), &row[1], &row[2]);
+        if call.contains("at.") && !WRITTEN_OUT.contains(&name) {
+            assert_eq!(rows.get(name), Some(kinds), "{name}");
+        }
+    }
+    let known = table("device_functions.tsv");
+    for name in rows.keys() {
+        assert!(known.iter().any(|row| row[0] == *name), "device_functions.tsv does not have {name}");
+    }
+}

@@ -1,4 +1,8 @@
-//! How intrinsics of no or one argument are called, and such as take as many words as there are.
+//! How intrinsics are called: what the PTX bodies of the table are written with.
+//!
+//! OptiX checks the register type of every argument and result, and LLVM keeps `f32` in untyped `.b32` registers; so each asm
+//! block declares `.f32` registers of its own and moves the bits across. Names, order, register types and volatility follow the
+//! public device headers of OptiX 9.0 as facts.
 
 /// A pure intrinsic without arguments that gives one 32-bit integer.
 macro_rules! get_u32 {
@@ -32,10 +36,27 @@ macro_rules! get_f32 {
     }};
 }
 
+/// Three pure intrinsics that give the coordinates of a vector.
 macro_rules! get_vec3 {
     ($name:literal) => {
         Vec3::new(get_f32!(concat!($name, "_x")), get_f32!(concat!($name, "_y")), get_f32!(concat!($name, "_z")))
     };
+}
+
+/// A pure intrinsic without arguments that gives one 64-bit integer, such as an address or a handle.
+macro_rules! get_u64 {
+    ($name:literal) => {{
+        let value: u64;
+        // SAFETY: as for `get_u32`.
+        unsafe {
+            asm!(
+                concat!("call ({v}), ", $name, ", ();"),
+                v = out(reg64) value,
+                options(pure, nomem, nostack, preserves_flags)
+            )
+        };
+        value
+    }};
 }
 
 /// A pure intrinsic that takes one integer and gives one. Needs `unsafe`: the argument is to be one it is defined for.
@@ -63,6 +84,7 @@ macro_rules! by_count {
     };
 }
 
+/// How many identifiers there are.
 macro_rules! count {
     () => { 0 };
     ($first:ident $($rest:ident)*) => { 1 + count!($($rest)*) };
