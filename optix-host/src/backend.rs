@@ -23,17 +23,19 @@ pub(crate) trait Backend: Any + Send + Sync {
     fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel>;
     /// Builds an instance acceleration structure.
     fn build_ias(&self, input: &IasInput) -> Result<BuiltAccel>;
-    /// By which number programs know callable record `index` of a scene; those of the `count` records from there on follow it.
+    /// The number by which programs know callable record `index` of a scene. The numbers of the `count` records from
+    /// there on follow it.
     fn number_callables(&self, index: u32, count: u32) -> Result<u32>;
-    /// Makes a pipeline ready to launch. `kept` is what the table's records point to, which the pipeline keeps.
+    /// Makes a pipeline ready to launch. `kept` is what the table's records point to; the pipeline keeps it.
     fn link(&self, plan: Arc<Plan>, sbt: ShaderBindingTable, kept: &[Kept]) -> Result<Box<dyn Linked>>;
 }
 
 /// A pipeline that is ready to launch.
 pub(crate) trait Linked: Send {
-    /// Begins a launch; `params` are the bytes of the parameter struct, and `kept` is what they point to, which the launch keeps.
+    /// Begins a launch. `params` are the bytes of the parameter struct. `kept` is what they point to; the launch keeps
+    /// it.
     fn launch(&self, raygen: usize, params: &[u8], kept: &[Kept], dimensions: [u32; 3]) -> Result<Box<dyn Running>>;
-    /// What the machine says of the pipeline: sizes, registers, log.
+    /// What the machine reports about the pipeline: sizes, registers, log.
     fn details(&self) -> Vec<String>;
 }
 

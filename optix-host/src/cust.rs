@@ -1,9 +1,10 @@
-//! To and from the crate [`cust`](::cust): its context, streams and device memory (feature `cust`).
+//! Shares contexts, streams and device memory with the crate [`cust`](::cust) (feature `cust`).
 //!
-//! A [`device`] of ours on cust's stream launches pipelines in the order of what else was asked for there. Memory goes
-//! both ways without a copy: [`buffer`] lends cust's to launches, [`slice`] ours to cust.
+//! A [`device`] on cust's stream does its work in order with everything else on that stream. Memory is shared in both
+//! directions without a copy: [`buffer`] lends cust's to launches, [`slice`] lends a buffer's to cust.
 //!
-//! Elements may change their type on the way, `[f32; 4]` to `Vec4`: cust does not know this crate's version of glam.
+//! Elements may change their type, such as `[f32; 4]` to `Vec4`, because cust does not know this crate's version of
+//! glam.
 //!
 //! ```no_run
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -146,7 +147,7 @@ fn invalid(what: &'static str, problem: impl Into<String>, remedy: &'static str)
 
 fn failed(call: &'static str) -> impl FnOnce(CudaError) -> Error {
     move |error| {
-        // Not its `Display`, which fails where the driver has no sentence for the code.
+        // `Display` is not used: it fails if the driver has no sentence for the code.
         let (name, text, code) = (format!("{error:?}"), "reported by cust".into(), error as i32);
         let remedy = driver::remedy::cuda_remedy(code);
         driver::Error::Cuda(Box::new(CudaFailure { call, name, code, text, remedy, messages: Vec::new() })).into()

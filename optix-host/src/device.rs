@@ -93,12 +93,12 @@ impl Device {
         self.kind
     }
 
-    /// The machine in a line.
+    /// The machine, described in a line.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The machine in a line, and for [`Device::best`] why it was chosen.
+    /// The machine, described in a line, and for [`Device::best`] why it was chosen.
     pub fn description(&self) -> &str {
         &self.description
     }

@@ -12,7 +12,8 @@ use optix_device_rs::pipeline::{HasRayGen, Pipeline as PipelineType};
 impl<P: PipelineType> Pipeline<P> {
     /// Launches the first ray-generation program over `dimensions` (width, height, depth; at most 2^30 in all).
     ///
-    /// The launch runs on; what it writes is read after it by order of the device's work, and what it uses is kept alive.
+    /// The call returns while the launch runs. What the launch writes can be read after it, because a device does its
+    /// work in order, and what it uses is kept alive.
     pub fn launch(&self, params: &<P::Params as LaunchParams>::Host, dimensions: [u32; 3]) -> Result<Launch> {
         self.begin(0, params, dimensions)
     }
@@ -76,7 +77,7 @@ impl Launch {
 impl Drop for Launch {
     fn drop(&mut self) {
         if !self.done {
-            // An error has nobody to go to here; `wait` is the way to hear of it.
+            // Here an error has nobody to go to. `wait` returns it.
             let _ = self.running.wait();
         }
     }

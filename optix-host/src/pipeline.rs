@@ -42,7 +42,8 @@ impl<P: PipelineType> Pipeline<P> {
         PipelineBuilder { scene, ptx: None, bound: Vec::new() }
     }
 
-    /// Whether this pipeline's programs may use what its parameters or a record hold: its table and its flags cover that.
+    /// Checks that this pipeline's programs may use what its parameters or a record hold: its table and its flags have
+    /// to cover it.
     pub(crate) fn check(&self, kept: &Kept) -> Result<(), ReferenceError> {
         let made = match kept {
             Kept::Traced(world) => world.scene::<AccelShared>().map(|accel| (accel.scene, accel.slots > self.slots)),

@@ -1,4 +1,4 @@
-//! Acceleration structures are built: of geometry (GAS) and of instances (IAS) (guide 5).
+//! Builds acceleration structures of geometry (GAS) and of instances (IAS) (guide 5).
 
 use super::Scene;
 use crate::Result;
@@ -22,12 +22,12 @@ pub struct IasBuilder<'s, P> {
 }
 
 impl<P: Pipeline> Scene<P> {
-    /// A geometry acceleration structure of these, all of one kind (guide 5).
+    /// A geometry acceleration structure of these members, all of one kind (guide 5).
     pub fn gas<G: GasPrimitive>(&mut self, members: impl IntoIterator<Item = GasMember<P, G>>) -> GasBuilder<'_, P, G> {
         GasBuilder { members: members.into_iter().collect(), compact: false, scene: self }
     }
 
-    /// An instance acceleration structure of these (guide 5.4).
+    /// An instance acceleration structure of these instances (guide 5.4).
     pub fn ias(&mut self, instances: impl IntoIterator<Item = Instance<P>>) -> IasBuilder<'_, P> {
         IasBuilder { instances: instances.into_iter().collect(), scene: self }
     }

@@ -1,4 +1,4 @@
-//! Records of callables are added (guide 15).
+//! Adds records of callables to a scene (guide 15).
 
 use super::Scene;
 use crate::Result;
@@ -10,8 +10,8 @@ use std::any::Any;
 use std::sync::Arc;
 
 impl<P: Pipeline> Scene<P> {
-    /// Adds a record of callable `Prog`: `scene.callable::<wood>(Wood { .. })`. What comes back is a field of records and
-    /// launch parameters.
+    /// Adds a record of callable `Prog`: `scene.callable::<wood>(Wood { .. })`. The result is a reference, for a field
+    /// of records and launch parameters.
     ///
     /// # Errors
     /// [`SceneError`] for a record that holds what another device or scene made.
@@ -49,7 +49,8 @@ impl<P: Pipeline> Scene<P> {
         Ok(unsafe { CallableTable::new(first, len, self.device.backend.id(), shared) })
     }
 
-    /// Adds records, and numbers them one after the other: the first number, and what tells launches whose they are.
+    /// Adds records and numbers them one after the other. Returns the first number, and what tells launches whose they
+    /// are.
     fn push(&mut self, states: Vec<CallableState>) -> Result<(u32, Arc<dyn Any + Send + Sync>)> {
         let indices = self.state.next_callables(states.len())?;
         let first = self.device.backend.number_callables(indices.start, indices.len() as u32)?;

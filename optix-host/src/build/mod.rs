@@ -1,4 +1,4 @@
-//! Scenes are built here, on a device: what [`scene`](crate::scene) describes and checks is given to the device's machine.
+//! Builds scenes on a device: what [`scene`](crate::scene) describes and checks is given to the device's machine.
 
 mod accel;
 mod callable;

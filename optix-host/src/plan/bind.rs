@@ -22,13 +22,13 @@ impl BoundValue {
         }
     }
 
-    /// The value, for people.
+    /// The value for messages.
     pub fn value(&self) -> String {
         show(&self.bytes)
     }
 }
 
-/// Little-endian bytes as a hexadecimal number, with the decimal for small integers.
+/// Shows little-endian bytes as a hexadecimal number, and 32 bits also as a decimal one.
 fn show(bytes: &[u8]) -> String {
     let hex: String = bytes.iter().rev().map(|b| format!("{b:02x}")).collect();
     match <[u8; 4]>::try_from(bytes) {

@@ -26,11 +26,11 @@ impl fmt::Display for Exceptions {
     }
 }
 
-/// What the names of the device functions that throw begin with.
+/// The prefix of the names of the device functions that throw.
 const THROW: &str = "_optix_throw_exception_";
 
 impl Exceptions {
-    /// Those of a pipeline, and why.
+    /// The exceptions that a pipeline raises, and why.
     pub(super) fn of(
         description: &PipelineDescription,
         programs: &[ReachedProgram],

@@ -13,7 +13,7 @@ pub struct Note {
     pub reason: String,
 }
 
-/// Decisions as they are made.
+/// Collects decisions as they are made.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Notes(Vec<Note>);
 
@@ -27,7 +27,7 @@ impl Notes {
     }
 }
 
-/// All decisions; print it for people.
+/// All decisions. `Display` prints them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Explanation {
     /// The pipeline's name.

@@ -12,7 +12,7 @@ pub(crate) enum Graph {
 }
 
 impl Graph {
-    /// That of a scene, with the reason.
+    /// The graphs of a scene, with the reason.
     pub fn of(features: &Features) -> (Self, String) {
         let levels = features.instance_levels;
         match features.roots.least_but(levels) {
@@ -41,8 +41,8 @@ impl Graph {
         }
     }
 
-    /// Whether a structure with so many levels of instances may be traced against, where `planned` is the most that the scene had;
-    /// why not.
+    /// Checks whether rays may be traced against a structure with so many levels of instances. `planned` is the most
+    /// that the scene had.
     pub fn allows(self, levels: u32, planned: u32) -> Result<(), ReferenceError> {
         match self {
             _ if levels > planned => Err(ReferenceError::GraphTooDeep { levels, planned, graph: self.words() }),

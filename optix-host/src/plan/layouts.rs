@@ -1,4 +1,4 @@
-//! Whether the PTX is of the same source as this host: all that crosses is laid out alike.
+//! Compares the layouts in the PTX with those of this host, which agree if both come from the same source.
 
 use crate::error::{LayoutDifference, PipelineError};
 use crate::{Error, Result};
@@ -6,7 +6,7 @@ use optix_device_rs::host::PipelineDescription;
 use optix_device_rs::layout::Crossing;
 use optix_ptx::Module;
 
-/// Whether all that crosses between host and device is laid out in the PTX as on this host.
+/// Checks that everything that crosses between host and device is laid out in the PTX as on this host.
 pub(super) fn check_layouts(description: &PipelineDescription, module: &Module<'_>) -> Result<()> {
     let here = description.crossings;
     let there = module.variables.iter().find(|variable| variable.name == description.layouts);
@@ -28,7 +28,7 @@ pub(super) fn check_layouts(description: &PipelineDescription, module: &Module<'
     Err(Error::Pipeline { pipeline: description.name, error })
 }
 
-/// In what a type differs from the same type of the PTX, of which its table says size and layout; none if in nothing.
+/// How a type differs from the same type in the PTX, whose table has its size and layout. `None` if it does not differ.
 fn difference(here: &Crossing, [ptx, layout_there]: [u64; 2]) -> Option<LayoutDifference> {
     let Crossing { what, name, size, layout } = *here;
     let host = size as u64;

@@ -1,4 +1,4 @@
-//! The specialisation of a pipeline type to a scene: everything that neither needs is left out.
+//! Specialises a pipeline type to a scene: everything that the scene does not need is left out.
 
 mod bind;
 mod depth;
@@ -36,7 +36,7 @@ pub(crate) struct Plan {
     pub depths: Depths,
     pub exceptions: Exceptions,
     pub bound: Vec<BoundValue>,
-    /// The text with only the entries that the scene needs.
+    /// The text of the PTX, with only the entries that the scene needs.
     pub ptx: Option<String>,
     notes: Notes,
 }
@@ -96,7 +96,7 @@ impl Plan {
         })
     }
 
-    /// Whether a root with so many levels of instances may be traced against; why not.
+    /// Checks whether rays may be traced against a structure with so many levels of instances.
     pub fn allows(&self, levels: u32) -> Result<(), ReferenceError> {
         self.graph.allows(levels, self.graph_depth - 1)
     }
@@ -118,7 +118,7 @@ fn note_motion(features: &Features, notes: &mut Notes) {
     }
 }
 
-/// Of the hit groups in use; the driver takes 2 at the least.
+/// The attribute words of the hit groups in use. The driver takes 2 at the least.
 fn attribute_words(groups: &[&HitGroupDescription], notes: &mut Notes) -> u32 {
     let widest = groups.iter().max_by_key(|group| group.attribute_words);
     let words = widest.map_or(0, |group| group.attribute_words as u32).max(2);

@@ -1,4 +1,4 @@
-//! Which programs a launch can reach; the others are cut from the PTX.
+//! Finds which programs a launch can reach. The others are cut from the PTX.
 
 use crate::features::Features;
 use optix_device_rs::host::{Entry, PipelineDescription};
@@ -7,13 +7,13 @@ use optix_ptx::Module;
 /// A program that a launch can reach.
 pub(super) struct ReachedProgram {
     pub name: &'static str,
-    /// As its source calls it, for messages.
+    /// Its name in the source, for messages.
     pub function: &'static str,
     pub stage: Stage,
 }
 
 impl ReachedProgram {
-    /// Whether the program, or what it calls, calls a device function that `is_it` says yes to.
+    /// Whether the program, or a function that it calls, calls a device function for which `is_it` holds.
     pub fn calls(&self, module: &Module<'_>, is_it: impl Fn(&str) -> bool) -> bool {
         module.reached(self.name).iter().flat_map(|function| function.calls()).any(|call| is_it(call.function))
     }
@@ -66,7 +66,7 @@ pub(super) fn reached_programs(description: &PipelineDescription, features: &Fea
     entries
 }
 
-/// The text of a module without the entries that `keep` says no to.
+/// The text of a module without the entries for which `keep` does not hold.
 pub(super) fn without_entries(text: &str, module: &Module<'_>, keep: impl Fn(&str) -> bool) -> String {
     let mut result = String::with_capacity(text.len());
     let mut at = 0;

@@ -1,4 +1,4 @@
-//! The shader binding table as a pure value: what goes where, before any device sees it (guide 7).
+//! The shader binding table as a pure value: the records and their order, before any device sees them (guide 7).
 //!
 //! The table of a scene with materials `m0, m1, ..` and `R` ray types has, for every use of a material by a GAS, `R`
 //! consecutive hit records; a GAS knows where its first one is, and a trace call of ray type `r` uses offset `r` and
@@ -29,7 +29,8 @@ impl AlignedBytes {
     }
 }
 
-/// Records of one kind, one after the other: each a header that only OptiX reads, and the data; padding is zero.
+/// Records of one kind, one after the other. Each consists of a header, which only OptiX reads, and the data. Padding
+/// is zero.
 #[derive(Clone, Debug)]
 pub struct Section<K> {
     stride: usize,
@@ -38,7 +39,7 @@ pub struct Section<K> {
 }
 
 impl<K> Section<K> {
-    /// Lays out records: which program each is for, and its data.
+    /// Lays out records, given the program and the data of each.
     pub fn new<'a>(records: impl IntoIterator<Item = (K, &'a [u8])>) -> Self {
         let (programs, data): (Vec<K>, Vec<&[u8]>) = records.into_iter().unzip();
         let largest = data.iter().map(|d| d.len()).max().unwrap_or(0);
@@ -61,7 +62,7 @@ impl<K> Section<K> {
         &self.programs
     }
 
-    /// All of it, as a device takes it.
+    /// All bytes of the section, as a device takes them.
     pub fn bytes(&self) -> &[u8] {
         &self.bytes.bytes()[..self.stride * self.programs.len()]
     }
@@ -99,7 +100,7 @@ pub struct HitProgram {
 pub struct CallableProgram {
     /// Index in [`PipelineDescription::callables`](optix_device_rs::host::PipelineDescription::callables).
     pub program: usize,
-    /// By which programs know the record.
+    /// The number by which programs know the record.
     pub number: u32,
 }
 
@@ -110,7 +111,7 @@ pub struct ShaderBindingTable {
     pub raygen: Section<usize>,
     /// One record per ray type.
     pub miss: Section<usize>,
-    /// Records of materials, per ray type.
+    /// The records of materials, one for each ray type.
     pub hit: Section<HitProgram>,
     /// Records of callables, as the scene made them.
     pub callables: Section<CallableProgram>,

@@ -27,11 +27,11 @@ pub(crate) struct AccelShared {
     pub scene: u64,
     /// Levels of instances; 0 for a GAS.
     pub depth: u32,
-    /// First record slot; 0 for an IAS, whose instances carry their offsets.
+    /// The slot of its first record. It is 0 for an IAS, whose instances have the offsets.
     pub(super) first_slot: u32,
-    /// The table has at least this many slots.
+    /// The number of slots that the table has at the least.
     pub slots: u32,
-    /// Those of the scene.
+    /// The features of the scene.
     roots: Roots,
     /// Keeps the children alive.
     _children: Vec<Arc<AccelShared>>,
@@ -45,10 +45,10 @@ impl AccelShared {
 }
 
 impl<P> Accel<P> {
-    /// The structure as launch parameters take it: what rays are traced against.
+    /// The structure for launch parameters and records: rays are traced against it.
     ///
-    /// A GAS that does not have the first records of the table can't be a root itself, since only instances carry
-    /// offsets: put it in an IAS.
+    /// Only instances carry record offsets. So a GAS whose records are not the first of the table can't be traced
+    /// against itself, but only through an IAS.
     pub fn world(&self) -> Result<World> {
         let shared = &self.shared;
         if shared.first_slot != 0 {

@@ -1,7 +1,7 @@
 //! Flags of instances.
 
-/// What holds for all primitives below an instance (`OptixInstanceFlags`, guide 5.4). A set, joined with `|`. Of nested
-/// instances the innermost one's count.
+/// Flags that hold for all primitives below an instance (`OptixInstanceFlags`, guide 5.4). A set, joined with `|`. If
+/// instances are nested, the flags of the innermost one count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct InstanceFlags(u32);
 
@@ -12,9 +12,9 @@ impl InstanceFlags {
     pub const DISABLE_TRIANGLE_FACE_CULLING: Self = Self(1);
     /// Front and back are exchanged.
     pub const FLIP_TRIANGLE_FACING: Self = Self(2);
-    /// No any-hit calls; a ray may override.
+    /// Any-hit programs are not called, unless a ray enforces them.
     pub const DISABLE_ANYHIT: Self = Self(4);
-    /// Any-hit calls where geometry disables them; a ray may override.
+    /// Any-hit programs are called even for geometry that disables them, unless a ray disables them.
     pub const ENFORCE_ANYHIT: Self = Self(8);
 
     /// Bits of `OptixInstanceFlags`.
@@ -22,7 +22,7 @@ impl InstanceFlags {
         self.0
     }
 
-    /// Two of these that exclude each other (guide 5.4), if there are: OptiX says nothing of them.
+    /// Two of these flags that exclude each other (guide 5.4), if there are. OptiX does not report them.
     pub(crate) fn conflict(self) -> Option<[&'static str; 2]> {
         self.contains(Self::DISABLE_ANYHIT | Self::ENFORCE_ANYHIT).then_some(["DISABLE_ANYHIT", "ENFORCE_ANYHIT"])
     }

@@ -14,7 +14,7 @@ pub struct GasMember<P, G: GasPrimitive> {
     primitives: Arc<G::Array>,
     /// One for each material.
     records: Records,
-    /// Whose each material is.
+    /// The scene of each material.
     scenes: Vec<u64>,
     slots: Vec<Slot>,
     pipeline: PhantomData<fn(P)>,
@@ -49,7 +49,7 @@ impl<P, G: GasPrimitive> GasMember<P, G> {
 }
 
 impl SceneState {
-    /// What a machine builds a GAS of, after a check that its members fit this scene and each other.
+    /// The input of a GAS for a machine, after a check that its members fit this scene and each other.
     pub(crate) fn gas_input<P, G: GasPrimitive>(
         &self,
         members: &[GasMember<P, G>],
@@ -70,7 +70,7 @@ impl SceneState {
         Ok(GasInput { inputs, compact, random_vertex_access })
     }
 
-    /// Takes the GAS that a machine built of these members.
+    /// Adds the GAS that a machine built of these members.
     pub(crate) fn add_gas<P, G: GasPrimitive>(
         &mut self,
         members: &[GasMember<P, G>],

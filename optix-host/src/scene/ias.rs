@@ -43,7 +43,7 @@ impl<P> Accel<P> {
 }
 
 impl SceneState {
-    /// What a machine builds an IAS of, after a check that each instance is one of this scene.
+    /// The input of an IAS for a machine, after a check that each instance belongs to this scene.
     pub(crate) fn ias_input<P: Pipeline>(
         &self,
         instances: &[Instance<P>],
@@ -62,7 +62,7 @@ impl SceneState {
             Ok(InstanceInput {
                 transform: core::array::from_fn(|element| rows[element]),
                 id: instance.id,
-                // What does not fit 32 bits does not fit the 28 that there are, which the machine refuses.
+                // An offset that does not fit 32 bits does not fit 28 either, which the machine refuses.
                 sbt_offset: u32::try_from(first_record).unwrap_or(u32::MAX),
                 visibility_mask: instance.mask,
                 flags: instance.flags,
@@ -73,7 +73,7 @@ impl SceneState {
         Ok(IasInput { instances: inputs, random_instance_access })
     }
 
-    /// Takes the IAS that a machine built of these instances.
+    /// Adds the IAS that a machine built of these instances.
     pub(crate) fn add_ias<P>(&mut self, instances: Vec<Instance<P>>, built: BuiltAccel) -> Accel<P> {
         let depth = instances.iter().map(|instance| instance.child.shared.depth + 1).max().unwrap_or(0);
         self.add_accel(built, depth, 0, instances.into_iter().map(|instance| instance.child.shared).collect())

@@ -28,12 +28,12 @@ pub struct InstanceLimits {
     pub id: u32,
     /// Of its record offset.
     pub sbt_offset: u32,
-    /// Structures on the way from the one that holds the instance down to the primitives.
+    /// The most structures on a path from the one with the instance down to the primitives.
     pub depth: usize,
 }
 
 impl<C> InstanceInput<C> {
-    /// Where it is, with id and record offset 0 and no flags, seen by all rays.
+    /// An instance of `child` in its place, with id and record offset 0 and no flags, that all rays see.
     pub fn new(child: C) -> Self {
         Self {
             transform: Affine::IDENTITY.to_f32(),

@@ -1,5 +1,5 @@
-//! What scenes are made of: geometry, materials and the acceleration structures that bring them together. All is described and
-//! checked here, for any machine; [`Scene`](crate::Scene) builds it on one.
+//! The parts of a scene: geometry, materials, and the acceleration structures that bring them together. They are
+//! described and checked here, without a machine; [`Scene`](crate::Scene) builds them on one.
 
 mod accel;
 mod callable;
@@ -41,18 +41,18 @@ pub(crate) struct SceneState {
     pub slots: Vec<Slot>,
     /// Where the records of a GAS with these materials begin.
     slots_of: HashMap<Vec<Slot>, u32>,
-    /// Per ray type.
+    /// The record of the miss program, for each ray type.
     pub miss: Vec<RecordData>,
-    /// Per ray-generation program.
+    /// The record of each ray-generation program.
     pub raygen: Vec<RecordData>,
     /// Records of callables, in the order of the table.
     pub callables: Vec<CallableState>,
-    /// Of the exception program.
+    /// The record of the exception program.
     pub exception: RecordData,
     pub features: Features,
 }
 
-/// One material on one kind of geometry: its index and its hit group's.
+/// A material on one kind of geometry: the indices of the material and of its hit group.
 pub(crate) type Slot = (u32, u32);
 
 /// A record's bytes, if it was given, and what keeps its views alive.
@@ -62,7 +62,7 @@ pub(crate) struct RecordData {
     pub keep: Vec<Kept>,
 }
 
-/// Whose table the programs need that are reached through this; none if they need none.
+/// The scene whose table the programs need that are reached through this. `None` if they need no table.
 fn scene_of(kept: &Kept) -> Option<u64> {
     match kept {
         Kept::Traced(world) => Some(world.scene::<AccelShared>()?.scene),
@@ -75,7 +75,7 @@ impl SceneState {
     /// A scene without content, for a pipeline with this description, on this device.
     pub(crate) fn new(description: &PipelineDescription, device: DeviceId) -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(1);
-        // A record without data needs no giving.
+        // A record without data need not be given.
         let record = |size: usize| RecordData { bytes: (size == 0).then(Vec::new), keep: Vec::new() };
         Self {
             id: NEXT.fetch_add(1, Ordering::Relaxed),
@@ -91,7 +91,7 @@ impl SceneState {
         }
     }
 
-    /// A record's device bytes, after a check that what it points to is on this scene's device.
+    /// The bytes of a record on the device, after a check that what it points to belongs to this scene and device.
     pub(crate) fn lower<T: Twin>(&self, record: &T) -> Result<RecordData> {
         // SAFETY: the record keeps the owners beside the bytes.
         let mut keep = unsafe { KeepAlive::new() };
@@ -114,7 +114,7 @@ impl SceneState {
         records.flat_map(|record| &record.keep)
     }
 
-    /// Where the records of a GAS whose build inputs have these materials begin; GASes with the same list share them.
+    /// The slot at which the records of a GAS with these materials begin. GASes with the same list share their records.
     pub(crate) fn slots_for(&mut self, materials: Vec<Slot>) -> Result<u32> {
         if let Some(&first) = self.slots_of.get(&materials) {
             return Ok(first);
@@ -128,7 +128,7 @@ impl SceneState {
     }
 }
 
-/// A count that numbers of 32 bits can count.
+/// Checks that 32 bits can hold the count.
 pub(crate) fn numbered(count: usize, what: &'static str) -> Result<u32> {
     u32::try_from(count).map_err(|_| SceneError::TooMany { what, count }.into())
 }
