@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput};
 use optix_host::cpu::traversal::{
-    Accel, AnyHit, Candidate, Gas, Programs, RayQuery, Reporter, Site, ray_flags, trace, trace_portable,
+    Accel, AnyHit, Candidate, Gas, PrimitiveContext, Programs, RayQuery, Reporter, ray_flags, trace, trace_portable,
 };
 use optix_host::geometry::{BuildInput, GeometryFlags, Records, TriangleArray};
 use optix_tests::meshes;
@@ -30,7 +30,7 @@ impl Programs for Opaque {
         AnyHit::Accept
     }
 
-    fn intersect(&mut self, _: &Site<'_>, _: &mut Reporter<'_, '_>) {}
+    fn intersect(&mut self, _: &PrimitiveContext<'_>, _: &mut Reporter<'_, '_>) {}
 }
 
 /// Rays that each contestant traces in its turn: a millisecond or two.

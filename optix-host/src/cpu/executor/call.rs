@@ -297,22 +297,22 @@ impl Executor for Call<'_> {
         Call::call(self, call, words);
     }
     unsafe fn instance_traversable_from_ias(&self, ias: u64, index: u32) -> u64 {
-        let placed = match self.launch.reached.read.get(ias) {
+        let built = match self.launch.reached.read.get(ias) {
             Some(Accel::Ias(ias)) => ias.instances().get(index as usize),
             _ => None,
         };
-        placed.map_or_else(|| not_held("table of instances"), handle::of)
+        built.map_or_else(|| not_held("table of instances"), handle::of)
     }
     unsafe fn instance(&self, handle: u64) -> InstanceState {
         // SAFETY: the caller's.
-        let Some(placed) = (unsafe { handle::instance(handle) }) else {
+        let Some(built) = (unsafe { handle::instance(handle) }) else {
             fail(Rule::InstanceHandle, "a handle is of no instance".into())
         };
         InstanceState {
-            id: placed.instance.id,
-            child: handle::of(&*placed.instance.child),
-            transform: rows(placed.instance.transform),
-            inverse: rows(placed.inverse_transform()),
+            id: built.instance.id,
+            child: handle::of(&*built.instance.child),
+            transform: rows(built.instance.transform),
+            inverse: rows(built.inverse_transform()),
         }
     }
     unsafe fn triangle_vertices_from_handle(&self, gas: u64, primitive: u32, sbt_gas_index: u32) -> [Vec3; 3] {

@@ -1,7 +1,7 @@
 //! The checks of the checked mode: they find what the OptiX guide calls undefined, or leaves to the application.
 
 use super::Launch;
-use crate::cpu::traversal::{Aabb, InstancePath, Ray, Site, ray_flags};
+use crate::cpu::traversal::{Aabb, InstancePath, PrimitiveContext, Ray, ray_flags};
 use core::cell::RefCell;
 use glam::Vec3;
 use optix_device_rs::host::end::fail;
@@ -59,7 +59,7 @@ pub(super) fn no_ray(path: &InstancePath<'_>, object_ray: &Ray) -> ! {
 }
 
 /// Checks a hit that is reported at a primitive, while the ray's interval ends at `tmax`.
-pub(super) fn report(site: &Site<'_>, tmax: f32, t: f32, kind: u8) {
+pub(super) fn report(context: &PrimitiveContext<'_>, tmax: f32, t: f32, kind: u8) {
     if kind > 127 {
         fail(Rule::HitKind, format!("hit kind {kind} is reported: 128 to 255 are of built-in primitives"));
     }
@@ -67,10 +67,10 @@ pub(super) fn report(site: &Site<'_>, tmax: f32, t: f32, kind: u8) {
         fail(Rule::HitNan, "a hit is reported at t = NaN".into());
     }
     // Reporting outside of the interval is allowed, but is no hit.
-    if (site.query.tmin..=tmax).contains(&t)
-        && let Some(Aabb { min, max }) = site.gas.custom_box(site.sbt_gas_index, site.primitive_index)
+    if (context.query.tmin..=tmax).contains(&t)
+        && let Some(Aabb { min, max }) = context.gas.custom_box(context.sbt_gas_index, context.primitive_index)
     {
-        let ray = &site.object_ray;
+        let ray = &context.object_ray;
         let at: [f64; 3] = core::array::from_fn(|a| {
             let (origin, way) = (f64::from(ray.origin[a]), f64::from(t) * f64::from(ray.direction[a]));
             // Rounding in the program's own arithmetic may move the hit by this much.

@@ -3,7 +3,7 @@
 use super::call::{Call, RayAndHit};
 use super::checks;
 use super::handle::{self, rows};
-use crate::cpu::traversal::{self, Candidate, InstancePath, Programs, Reporter, Site};
+use crate::cpu::traversal::{self, Candidate, InstancePath, PrimitiveContext, Programs, Reporter};
 use core::cell::RefCell;
 use glam::Vec3;
 use optix_device_rs::host::{CallableCall, Executor, HitState, InstanceState, TraceCall, no_answer};
@@ -71,7 +71,7 @@ impl<V: Fn() -> Option<[[f32; 3]; 3]>> Executor for AtHit<'_, V> {
 struct AtPrimitive<'c, 't, 'p, 'r, 's> {
     call: &'c Call<'c>,
     path: &'c InstancePath<'c>,
-    site: &'c Site<'c>,
+    context: &'c PrimitiveContext<'c>,
     traversal: RefCell<&'t mut Traversal<'p>>,
     reporter: RefCell<&'t mut Reporter<'r, 's>>,
 }
@@ -81,7 +81,7 @@ impl Executor for AtPrimitive<'_, '_, '_, '_, '_> {
 
     fn report(&self, t: f32, kind: u8, count: usize, attributes: &WordBuffer) -> bool {
         if self.call.launch.checked {
-            checks::report(self.site, self.interval_end(), t, kind);
+            checks::report(self.context, self.interval_end(), t, kind);
         }
         // As on the device: OptiX keeps seven bits of the kind, and the eighth tells that the primitive is a built-in
         // one.
@@ -101,15 +101,15 @@ pub(super) struct Traversal<'c> {
 }
 
 /// What a program at a primitive sees. `ray` has the `tmax` for that program.
-fn ray_and_hit(site: &Site<'_>, ray: Ray, kind: u8, attributes: [u32; 8]) -> RayAndHit {
+fn ray_and_hit(context: &PrimitiveContext<'_>, ray: Ray, kind: u8, attributes: [u32; 8]) -> RayAndHit {
     RayAndHit {
         ray,
-        object_ray: (Vec3::from_array(site.object_ray.origin), Vec3::from_array(site.object_ray.direction)),
+        object_ray: (Vec3::from_array(context.object_ray.origin), Vec3::from_array(context.object_ray.direction)),
         hit: HitState {
-            primitive_index: site.primitive_index,
-            sbt_gas_index: site.sbt_gas_index,
-            instance_id: site.path.instance_id(),
-            instance_index: site.path.instance_index(),
+            primitive_index: context.primitive_index,
+            sbt_gas_index: context.sbt_gas_index,
+            instance_id: context.path.instance_id(),
+            instance_index: context.path.instance_index(),
             kind,
             attributes,
         },
@@ -118,30 +118,30 @@ fn ray_and_hit(site: &Site<'_>, ray: Ray, kind: u8, attributes: [u32; 8]) -> Ray
 
 impl Programs for Traversal<'_> {
     fn any_hit(&mut self, candidate: &Candidate<'_>) -> traversal::AnyHit {
-        let (call, site) = (&self.call, &candidate.site);
-        let Some(entry) = &call.hit_programs(site.sbt_index).anyhit else { return traversal::AnyHit::Accept };
-        let executor = AtHit { call, path: site.path, vertices: || candidate.triangle_vertices() };
+        let (call, context) = (&self.call, &candidate.context);
+        let Some(entry) = &call.hit_programs(context.sbt_index).anyhit else { return traversal::AnyHit::Accept };
+        let executor = AtHit { call, path: context.path, vertices: || candidate.triangle_vertices() };
         let ray = Ray { tmax: candidate.t, ..self.ray };
-        let ray_and_hit = ray_and_hit(site, ray, candidate.hit_kind, candidate.attributes);
-        match call.run(entry, &call.launch.sbt.hit, site.sbt_index as usize, ray_and_hit, &executor) {
+        let ray_and_hit = ray_and_hit(context, ray, candidate.hit_kind, candidate.attributes);
+        match call.run(entry, &call.launch.sbt.hit, context.sbt_index as usize, ray_and_hit, &executor) {
             Decision::Accept => traversal::AnyHit::Accept,
             Decision::Ignore => traversal::AnyHit::Ignore,
             Decision::Terminate => traversal::AnyHit::Terminate,
         }
     }
 
-    fn intersect(&mut self, site: &Site<'_>, reporter: &mut Reporter<'_, '_>) {
+    fn intersect(&mut self, context: &PrimitiveContext<'_>, reporter: &mut Reporter<'_, '_>) {
         let (call, ray) = (self.call, self.ray);
-        let Some(entry) = &call.hit_programs(site.sbt_index).intersection else { return };
+        let Some(entry) = &call.hit_programs(context.sbt_index).intersection else { return };
         let executor = AtPrimitive {
             call: &call,
-            path: site.path,
-            site,
+            path: context.path,
+            context,
             traversal: RefCell::new(self),
             reporter: RefCell::new(reporter),
         };
-        let ray_and_hit = ray_and_hit(site, ray, 0, [0; 8]);
-        let _ = call.run(entry, &call.launch.sbt.hit, site.sbt_index as usize, ray_and_hit, &executor);
+        let ray_and_hit = ray_and_hit(context, ray, 0, [0; 8]);
+        let _ = call.run(entry, &call.launch.sbt.hit, context.sbt_index as usize, ray_and_hit, &executor);
     }
 
     #[cold]

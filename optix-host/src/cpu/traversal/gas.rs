@@ -10,7 +10,7 @@ const LIMITS: GasLimits = GasLimits { primitives: MAX_PRIMITIVES, records: MAX_R
 
 /// What a build input contributes.
 #[derive(Clone, Copy, Debug)]
-struct Part {
+struct InputRange {
     first_primitive: u32,
     first_record: u32,
     primitive_index_offset: u32,
@@ -25,7 +25,7 @@ pub struct Gas {
     flags: Vec<GeometryFlags>,
     /// SBT index of each primitive; empty if there is only one.
     records: Vec<u32>,
-    parts: Vec<Part>,
+    parts: Vec<InputRange>,
     count: usize,
 }
 
@@ -34,7 +34,7 @@ impl Gas {
     pub fn new(inputs: impl Into<BuildInputs>) -> Result<Self, BuildError> {
         let inputs = inputs.into();
         inputs.check(LIMITS)?;
-        let table = Table::of(&inputs);
+        let table = Numbering::of(&inputs);
         let (bvh, primitives) = Primitives::build(inputs);
         Ok(table.finish(bvh, primitives))
     }
@@ -99,14 +99,14 @@ impl Gas {
 
 /// Numbers primitives and records over all inputs.
 #[derive(Default)]
-struct Table {
-    parts: Vec<Part>,
+struct Numbering {
+    parts: Vec<InputRange>,
     flags: Vec<GeometryFlags>,
     /// SBT index in the structure, per primitive.
     records: Vec<u32>,
 }
 
-impl Table {
+impl Numbering {
     fn of(inputs: &BuildInputs) -> Self {
         let mut table = Self::default();
         match inputs {
@@ -119,7 +119,7 @@ impl Table {
     fn add<A: PrimitiveArray>(&mut self, inputs: &[BuildInput<A>]) {
         for input in inputs {
             let (first_primitive, first_record) = (self.records.len() as u32, self.flags.len() as u32);
-            self.parts.push(Part {
+            self.parts.push(InputRange {
                 first_primitive,
                 first_record,
                 primitive_index_offset: input.primitive_index_offset(),

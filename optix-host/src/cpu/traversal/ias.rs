@@ -77,7 +77,7 @@ const LIMITS: InstanceLimits =
 
 /// An instance in a built structure.
 #[derive(Debug)]
-pub struct Placed {
+pub struct BuiltInstance {
     pub instance: Instance,
     pub(super) inverse: Affine,
     /// Its space is its parent's.
@@ -87,7 +87,7 @@ pub struct Placed {
     pub(super) to_object: [f32; 12],
 }
 
-impl Placed {
+impl BuiltInstance {
     /// World (the space of the instance's parent) to object, row-major 3x4: formed in `f64`, rounded once.
     pub fn inverse_transform(&self) -> [f32; 12] {
         self.inverse.to_f32()
@@ -98,7 +98,7 @@ impl Placed {
 #[derive(Debug)]
 pub struct Ias {
     pub(super) bvh: Bvh,
-    pub(super) placed: Vec<Placed>,
+    pub(super) built: Vec<BuiltInstance>,
     /// Multiplies the margin of the box test. A child's margin `m R'` in its own space is up to `norm(T) m R'` here,
     /// with `R' <= norm(T^-1) R`; rounding the ray into the child's space adds as much as the child's own margin.
     pub(super) slack: f32,
@@ -112,7 +112,7 @@ impl Ias {
         if instances.len() > MAX_INSTANCES {
             return Err(BuildError::TooMany { what: "instances", count: instances.len(), limit: MAX_INSTANCES });
         }
-        let (mut placed, mut boxes) = (Vec::with_capacity(instances.len()), Vec::with_capacity(instances.len()));
+        let (mut built, mut boxes) = (Vec::with_capacity(instances.len()), Vec::with_capacity(instances.len()));
         let (mut slack, mut max_sbt_offset, mut depth) = (1.0f64, 0, 1);
         for (i, instance) in instances.into_iter().enumerate() {
             let inverse = check(&instance).map_err(|error| BuildError::Instance { instance: i, error })?;
@@ -121,7 +121,7 @@ impl Ias {
             slack = slack.max(transform.norm() * inverse.norm() * (instance.child.slack() + 1.0));
             max_sbt_offset = max_sbt_offset.max(instance.sbt_offset + instance.child.max_sbt_offset());
             depth = depth.max(1 + instance.child.depth());
-            placed.push(Placed {
+            built.push(BuiltInstance {
                 identity: transform == Affine::IDENTITY,
                 to_world: Affine::IDENTITY.after(&transform).to_f32(),
                 to_object: inverse.after(&Affine::IDENTITY).to_f32(),
@@ -130,7 +130,7 @@ impl Ias {
             });
         }
         let bvh = Bvh::build(&boxes, SINGLE_LEAF, |instances| instances[0]);
-        Ok(Self { bvh, placed, slack: slack as f32, max_sbt_offset, depth })
+        Ok(Self { bvh, built, slack: slack as f32, max_sbt_offset, depth })
     }
 
     /// A box around all that the instances hold, a few ulps larger than need be.
@@ -139,13 +139,13 @@ impl Ias {
     }
 
     /// The instances in the order given.
-    pub fn instances(&self) -> &[Placed] {
-        &self.placed
+    pub fn instances(&self) -> &[BuiltInstance] {
+        &self.built
     }
 
     /// Heap bytes, those of the children left out.
     pub fn memory_bytes(&self) -> usize {
-        self.bvh.memory_bytes() + size_of_val(&self.placed[..])
+        self.bvh.memory_bytes() + size_of_val(&self.built[..])
     }
 }
 

@@ -1,6 +1,6 @@
 //! The instances between the root of a trace and a primitive.
 
-use super::ias::{Accel, Placed};
+use super::ias::{Accel, BuiltInstance};
 use crate::affine::Affine;
 use crate::limits::MAX_GRAPH_DEPTH;
 
@@ -48,41 +48,41 @@ impl<'a> InstancePath<'a> {
     }
 
     /// The transform list (guide 13.11): nearest the root first.
-    pub fn instances(&self) -> impl Iterator<Item = &'a Placed> {
+    pub fn instances(&self) -> impl Iterator<Item = &'a BuiltInstance> {
         self.indices().iter().scan(self.root, |at, &index| {
             let Accel::Ias(ias) = *at else { return None };
-            let placed = &ias.placed[index as usize];
-            *at = &placed.instance.child;
-            Some(placed)
+            let built = &ias.built[index as usize];
+            *at = &built.instance.child;
+            Some(built)
         })
     }
 
     /// The instance, where there is just one.
     #[inline]
-    fn only(&self) -> Option<&'a Placed> {
+    fn only(&self) -> Option<&'a BuiltInstance> {
         match (self.root, self.indices()) {
-            (Accel::Ias(ias), &[index]) => Some(&ias.placed[index as usize]),
+            (Accel::Ias(ias), &[index]) => Some(&ias.built[index as usize]),
             _ => None,
         }
     }
 
     /// The innermost instance; `None` where the root is a GAS.
     #[inline]
-    pub fn innermost(&self) -> Option<&'a Placed> {
-        if let Some(placed) = self.only() {
-            return Some(placed);
+    pub fn innermost(&self) -> Option<&'a BuiltInstance> {
+        if let Some(built) = self.only() {
+            return Some(built);
         }
         self.instances().last()
     }
 
     /// The structure that holds the primitives.
     pub fn leaf(&self) -> &'a Accel {
-        self.innermost().map_or(self.root, |placed| &placed.instance.child)
+        self.innermost().map_or(self.root, |built| &built.instance.child)
     }
 
     /// `optixGetInstanceId`: the innermost instance's ID, `!0` without one (guide 13.7).
     pub fn instance_id(&self) -> u32 {
-        self.innermost().map_or(!0, |placed| placed.instance.id)
+        self.innermost().map_or(!0, |built| built.instance.id)
     }
 
     /// `optixGetInstanceIndex`: the innermost instance's index in its IAS, 0 without one (guide 13.7).
@@ -93,20 +93,20 @@ impl<'a> InstancePath<'a> {
     /// Object to world, row-major 3x4: the product of all transforms, formed in `f64` and rounded once.
     #[inline]
     pub fn object_to_world(&self) -> [f32; 12] {
-        if let Some(placed) = self.only() {
-            return placed.to_world;
+        if let Some(built) = self.only() {
+            return built.to_world;
         }
         self.instances()
-            .fold(Affine::IDENTITY, |all, placed| all.after(&Affine::from_f32(&placed.instance.transform)))
+            .fold(Affine::IDENTITY, |all, built| all.after(&Affine::from_f32(&built.instance.transform)))
             .to_f32()
     }
 
     /// World to object, as [`InstancePath::object_to_world`].
     #[inline]
     pub fn world_to_object(&self) -> [f32; 12] {
-        if let Some(placed) = self.only() {
-            return placed.to_object;
+        if let Some(built) = self.only() {
+            return built.to_object;
         }
-        self.instances().fold(Affine::IDENTITY, |all, placed| placed.inverse.after(&all)).to_f32()
+        self.instances().fold(Affine::IDENTITY, |all, built| built.inverse.after(&all)).to_f32()
     }
 }

@@ -1,6 +1,6 @@
 //! What a traversal asks of the shaders, and what it tells them.
 
-use super::candidate::{Offer, Sink};
+use super::candidate::{HitSink, PotentialHit};
 use super::flags::Verdict;
 use super::gas::Gas;
 use super::path::InstancePath;
@@ -23,7 +23,7 @@ pub trait Programs {
     fn any_hit(&mut self, candidate: &Candidate<'_>) -> AnyHit;
 
     /// Called for custom primitives whose box the ray meets. Calls [`Reporter::report`] for each hit found.
-    fn intersect(&mut self, site: &Site<'_>, reporter: &mut Reporter<'_, '_>);
+    fn intersect(&mut self, context: &PrimitiveContext<'_>, reporter: &mut Reporter<'_, '_>);
 
     /// Called for an instance whose box the ray meets and which it still misses: it is no ray in the instance's space, since an
     /// element of `object_ray` is not finite or its direction is 0. `path` leads to the instance.
@@ -32,7 +32,7 @@ pub trait Programs {
 
 /// A primitive that a ray has come to.
 #[derive(Clone, Copy, Debug)]
-pub struct Site<'s> {
+pub struct PrimitiveContext<'s> {
     /// With the build input's primitive index offset.
     pub primitive_index: u32,
     /// SBT index within the GAS (guide 7.3.2).
@@ -50,7 +50,7 @@ pub struct Site<'s> {
 /// A hit before it is accepted.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate<'s> {
-    pub site: Site<'s>,
+    pub context: PrimitiveContext<'s>,
     pub t: f32,
     /// 254 and 255 for the front and back of a triangle, otherwise as reported.
     pub hit_kind: u8,
@@ -81,7 +81,7 @@ pub struct Hit<'a> {
 
 /// Takes the hits that an intersection program finds on one primitive.
 pub struct Reporter<'r, 'a> {
-    pub(super) sink: Sink<'r, 'a>,
+    pub(super) sink: HitSink<'r, 'a>,
     /// Counted over all inputs of the GAS.
     pub(super) primitive: u32,
     pub(super) record: u32,
@@ -101,8 +101,8 @@ impl Reporter<'_, '_> {
         }
         let mut words = [0; 8];
         words.iter_mut().zip(attributes).for_each(|(to, from)| *to = *from);
-        let offer = Offer { t, hit_kind: hit_kind & 0x7f, attributes: words, primitive, record, slot: 0 };
-        self.sink.take(offer, verdict, programs)
+        let hit = PotentialHit { t, hit_kind: hit_kind & 0x7f, attributes: words, primitive, record, slot: 0 };
+        self.sink.submit(hit, verdict, programs)
     }
 
     /// The end of the ray's interval: the closest hit accepted so far, else the trace's `tmax` (guide 13.5).

@@ -74,14 +74,14 @@ pub struct ShearRay {
 
 impl ShearRay {
     /// Of the same ray where all lengths are [`SHRINK`] times as large. That is exact, but for denormal numbers: they lose less
-    /// than `2^-144` of an original length, which the margin of [`Frame::boxes`] covers. So triangles with coordinates up to
+    /// than `2^-144` of an original length, which the margin of [`PreparedRay::boxes`] covers. So triangles with coordinates up to
     /// `f32::MAX` are decided as others are, and `t` is the same.
     pub fn shrunk(&self) -> Self {
         Self { origin: self.origin.map(|x| x * SHRINK), major: self.major * f64::from(SHRINK), ..*self }
     }
 }
 
-/// What the box test needs of a ray. See [`Frame::boxes`] for why no box is missed.
+/// What the box test needs of a ray. See [`PreparedRay::boxes`] for why no box is missed.
 ///
 /// Distances here are *depths*: lengths along the major axis, `t * |d[major]|`, in the units of the space.
 #[derive(Clone, Copy, Debug)]
@@ -100,7 +100,7 @@ pub struct BoxRay {
 
 /// A ray prepared for one space.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame {
+pub struct PreparedRay {
     pub shear: ShearRay,
     origin: Vec3A,
     /// As in [`BoxRay`].
@@ -121,12 +121,12 @@ const SHEARS: [[[Axis; 3]; 2]; 3] = [
 const MARGIN: f32 = 1.0 / (1 << 20) as f32;
 /// Slopes below this are raised to it: at any depth within `R` that moves the ray by less than `2^-40 R`.
 const MIN_SLOPE: f32 = 1.0 / (1u64 << 40) as f32;
-/// Beyond this distance differences and sums of coordinates could overflow; see [`Frame::far_boxes`] and [`ShearRay::shrunk`].
+/// Beyond this distance differences and sums of coordinates could overflow; see [`PreparedRay::far_boxes`] and [`ShearRay::shrunk`].
 const MAX_REACH: f32 = f32::MAX / 8.0;
 /// What far structures are scaled by: twice the largest coordinate is then within [`MAX_REACH`].
 pub const SHRINK: f32 = 1.0 / 32.0;
 
-impl Frame {
+impl PreparedRay {
     /// Prepares a ray. `None` for one that misses everything: with an element that is not finite, or without direction.
     #[inline(always)]
     pub fn new(origin: &[f32; 3], direction: &[f32; 3], tmin: f32) -> Option<Self> {
@@ -222,7 +222,7 @@ impl Frame {
         Some(self.box_ray(self.origin + margin, self.origin - margin, false))
     }
 
-    /// [`Frame::boxes`] where sums and differences may overflow, as they do around planes without end. The margin is the same,
+    /// [`PreparedRay::boxes`] where sums and differences may overflow, as they do around planes without end. The margin is the same,
     /// unless it goes beyond the largest number, which is then as far outwards as boxes are. A plane whose distance overflows is
     /// infinitely far, on its side: nothing is 0 times infinity or the difference of infinities, so nothing is NaN.
     #[cold]

@@ -5,11 +5,11 @@ use super::gas::Gas;
 use super::ias::Accel;
 use super::path::InstancePath;
 use super::program::{AnyHit, Hit};
-use super::ray::{Frame, RayQuery};
+use super::ray::{PreparedRay, RayQuery};
 
 /// A hit, with the numbers it is made of.
 #[derive(Clone, Copy, Debug)]
-pub struct Found<'a> {
+pub struct CommittedHit<'a> {
     pub t: f32,
     pub hit_kind: u8,
     pub attributes: [u32; 8],
@@ -24,19 +24,19 @@ pub struct Found<'a> {
 
 /// The ray's interval and its closest hit.
 #[derive(Debug)]
-pub struct State<'a> {
+pub struct TraceState<'a> {
     tmin: f32,
     /// Shrinks to the closest accepted hit.
     pub tmax: f32,
     /// Set by `AnyHit::Terminate` and `TERMINATE_ON_FIRST_HIT`.
     pub ended: bool,
     first_hit_ends: bool,
-    closest: Option<Found<'a>>,
+    closest: Option<CommittedHit<'a>>,
     /// Where the closest hit is.
     at: InstancePath<'a>,
 }
 
-impl<'a> State<'a> {
+impl<'a> TraceState<'a> {
     #[inline(always)]
     pub fn new(query: &RayQuery, tmin: f32, root: &'a Accel) -> Self {
         let first_hit_ends = query.flags & ray_flags::TERMINATE_ON_FIRST_HIT != 0;
@@ -52,20 +52,20 @@ impl<'a> State<'a> {
             return false;
         }
         match &self.closest {
-            Some(found) if t == found.t => (path.indices(), primitive) < (self.at.indices(), found.primitive),
+            Some(hit) if t == hit.t => (path.indices(), primitive) < (self.at.indices(), hit.primitive),
             _ => true,
         }
     }
 
-    /// Acts on an any-hit decision; tells whether `found` was accepted.
+    /// Acts on an any-hit decision; tells whether the hit was accepted.
     #[inline]
-    pub fn settle(&mut self, answer: AnyHit, found: Found<'a>, path: &InstancePath<'a>) -> bool {
+    pub fn commit(&mut self, answer: AnyHit, hit: CommittedHit<'a>, path: &InstancePath<'a>) -> bool {
         if answer == AnyHit::Ignore {
             return false;
         }
-        self.tmax = found.t;
+        self.tmax = hit.t;
         self.ended = answer == AnyHit::Terminate || self.first_hit_ends;
-        self.closest = Some(found);
+        self.closest = Some(hit);
         self.at.set(path);
         true
     }
@@ -73,26 +73,26 @@ impl<'a> State<'a> {
     /// The limit of depth after some of the scene was looked at, when it was `limit` and the interval ended at `before`.
     /// Negative infinity if the ray has ended.
     #[inline(always)]
-    pub fn limit(&self, before: f32, limit: f32, frame: &Frame) -> f32 {
+    pub fn limit(&self, before: f32, limit: f32, prepared: &PreparedRay) -> f32 {
         match self.ended {
             true => f32::NEG_INFINITY,
-            false if self.tmax < before => frame.depth_max(self.tmax),
+            false if self.tmax < before => prepared.depth_max(self.tmax),
             false => limit,
         }
     }
 
     #[inline(always)]
     pub fn hit(&self, query: &RayQuery) -> Option<Hit<'a>> {
-        let found = self.closest.as_ref()?;
+        let hit = self.closest.as_ref()?;
         Some(Hit {
-            t: found.t,
-            hit_kind: found.hit_kind,
-            attributes: found.attributes,
-            primitive_index: found.gas.primitive_index(found.primitive),
-            sbt_gas_index: found.record,
-            sbt_index: sbt_index(query, found.instance_offset, found.record),
-            slot: found.slot,
-            gas: found.gas,
+            t: hit.t,
+            hit_kind: hit.hit_kind,
+            attributes: hit.attributes,
+            primitive_index: hit.gas.primitive_index(hit.primitive),
+            sbt_gas_index: hit.record,
+            sbt_index: sbt_index(query, hit.instance_offset, hit.record),
+            slot: hit.slot,
+            gas: hit.gas,
             path: self.at,
         })
     }

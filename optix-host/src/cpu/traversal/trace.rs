@@ -1,17 +1,17 @@
 //! Traversal.
 
 use super::bvh::{Bvh, Child, Lanes};
-use super::candidate::{Place, Sink};
+use super::candidate::{HitSink, InstanceContext};
 use super::ias::{Accel, Ias};
 use super::path::InstancePath;
 use super::primitive::{LeafRay, Leaves, Primitives};
 use super::program::{Hit, Programs};
-use super::ray::{BoxRay, Frame, Ray, RayQuery};
+use super::ray::{BoxRay, PreparedRay, Ray, RayQuery};
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
 use super::simd::{Portable, Simd, Task};
 use super::stack::{Entry, Stack};
-use super::state::State;
+use super::state::TraceState;
 use crate::scene::InstanceFlags;
 
 /// Traces a ray (guide 13.2) and gives its closest accepted hit. No structure at all is a miss.
@@ -56,17 +56,17 @@ fn trace_with<'a, S: Simd>(
     if ray.tmin.is_nan() || ray.tmax.is_nan() || ray.tmin.max(0.0) > ray.tmax {
         return None;
     }
-    simd.run(AtRoot { accel, query: ray, programs })
+    simd.run(RootTraversal { accel, query: ray, programs })
 }
 
 /// A trace, from preparing the ray to the hit.
-struct AtRoot<'t, 'a> {
+struct RootTraversal<'t, 'a> {
     accel: &'a Accel,
     query: &'t RayQuery,
     programs: &'t mut dyn Programs,
 }
 
-impl<'a> Task for AtRoot<'_, 'a> {
+impl<'a> Task for RootTraversal<'_, 'a> {
     type Output = Option<Hit<'a>>;
 
     #[inline(always)]
@@ -75,16 +75,16 @@ impl<'a> Task for AtRoot<'_, 'a> {
         let tmin = query.tmin.max(0.0);
         let ray = Ray { origin: query.origin, direction: query.direction };
         let exact = [widen(query.origin), widen(query.direction)];
-        let frame = Frame::new(&query.origin, &query.direction, tmin)?;
-        let space = Space { ray, exact, frame };
-        let (state, path) = (&mut State::new(query, tmin, accel), &mut InstancePath::new(accel));
-        let place = Place { query, tmin, space: &space, flags: InstanceFlags::NONE, sbt_offset: 0 };
+        let prepared = PreparedRay::new(&query.origin, &query.direction, tmin)?;
+        let space = Space { ray, exact, prepared };
+        let (state, path) = (&mut TraceState::new(query, tmin, accel), &mut InstancePath::new(accel));
+        let context = InstanceContext { query, tmin, space: &space, flags: InstanceFlags::NONE, sbt_offset: 0 };
         match accel {
             Accel::Gas(gas) => {
-                let sink = Sink { gas, place, path, state: &mut *state };
+                let sink = HitSink { gas, context, path, state: &mut *state };
                 simd.run(LeafRay { sink, programs, far: false });
             }
-            Accel::Ias(ias) => AtIas { ias, place, state, path, programs }.run(simd),
+            Accel::Ias(ias) => IasTraversal { ias, context, state, path, programs }.run(simd),
         }
         state.hit(query)
     }
@@ -95,7 +95,7 @@ pub struct Space {
     pub ray: Ray,
     /// Origin and direction before rounding.
     exact: [[f64; 3]; 2],
-    pub frame: Frame,
+    pub prepared: PreparedRay,
 }
 
 impl Space {
@@ -103,7 +103,7 @@ impl Space {
     #[inline(always)]
     fn new(exact: [[f64; 3]; 2], tmin: f32) -> Result<Self, Ray> {
         let ray = Ray { origin: narrow(exact[0]), direction: narrow(exact[1]) };
-        Ok(Self { ray, exact, frame: Frame::new(&ray.origin, &ray.direction, tmin).ok_or(ray)? })
+        Ok(Self { ray, exact, prepared: PreparedRay::new(&ray.origin, &ray.direction, tmin).ok_or(ray)? })
     }
 }
 
@@ -134,14 +134,14 @@ impl Task for LeafRay<'_, '_> {
 impl LeafRay<'_, '_> {
     #[inline(always)]
     fn traverse<S: Simd>(mut self, simd: S, leaves: &impl Leaves) {
-        let (bvh, frame) = (&self.sink.gas.bvh, &self.sink.place.space.frame);
-        let limit = frame.depth_max(self.sink.state.tmax);
+        let (bvh, prepared) = (&self.sink.gas.bvh, &self.sink.context.space.prepared);
+        let limit = prepared.depth_max(self.sink.state.tmax);
         if bvh.nodes.is_empty() {
-            if let Some(far) = frame.is_far(&bvh.bounds) {
+            if let Some(far) = prepared.is_far(&bvh.bounds) {
                 self.far = far;
                 leaves.visit_all(simd, &mut self, limit);
             }
-        } else if let Some(boxes) = frame.boxes(&bvh.bounds, 1.0) {
+        } else if let Some(boxes) = prepared.boxes(&bvh.bounds, 1.0) {
             self.far = boxes.far;
             walk(simd, bvh, &boxes, limit, |leaf, limit| leaves.visit(simd, &mut self, leaf, limit));
         }
@@ -149,36 +149,36 @@ impl LeafRay<'_, '_> {
 }
 
 /// Traversal of an instance acceleration structure.
-struct AtIas<'t, 'a> {
+struct IasTraversal<'t, 'a> {
     ias: &'a Ias,
-    place: Place<'t>,
-    state: &'t mut State<'a>,
+    context: InstanceContext<'t>,
+    state: &'t mut TraceState<'a>,
     path: &'t mut InstancePath<'a>,
     programs: &'t mut dyn Programs,
 }
 
-impl Task for AtIas<'_, '_> {
+impl Task for IasTraversal<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { ias, place: here, state, path, programs } = self;
-        let frame = &here.space.frame;
-        let Some(boxes) = frame.boxes(&ias.bvh.bounds, ias.slack) else { return };
-        let limit = frame.depth_max(state.tmax);
+        let Self { ias, context: parent, state, path, programs } = self;
+        let prepared = &parent.space.prepared;
+        let Some(boxes) = prepared.boxes(&ias.bvh.bounds, ias.slack) else { return };
+        let limit = prepared.depth_max(state.tmax);
         walk(simd, &ias.bvh, &boxes, limit, |index, limit| {
-            let placed = &ias.placed[index as usize];
-            let instance = &placed.instance;
-            if instance.visibility_mask & here.query.mask == 0 {
+            let built = &ias.built[index as usize];
+            let instance = &built.instance;
+            if instance.visibility_mask & parent.query.mask == 0 {
                 return limit;
             }
             let own;
-            let space = if placed.identity {
-                here.space
+            let space = if built.identity {
+                parent.space
             } else {
-                let [origin, direction] = here.space.exact;
-                let exact = [placed.inverse.point(origin), placed.inverse.vector(direction)];
-                match Space::new(exact, here.tmin) {
+                let [origin, direction] = parent.space.exact;
+                let exact = [built.inverse.point(origin), built.inverse.vector(direction)];
+                match Space::new(exact, parent.tmin) {
                     Ok(space) => own = space,
                     Err(ray) => {
                         path.push(index);
@@ -189,21 +189,31 @@ impl Task for AtIas<'_, '_> {
                 }
                 &own
             };
-            let place =
-                Place { space, flags: instance.flags, sbt_offset: here.sbt_offset + instance.sbt_offset, ..here };
+            let context = InstanceContext {
+                space,
+                flags: instance.flags,
+                sbt_offset: parent.sbt_offset + instance.sbt_offset,
+                ..parent
+            };
             let before = state.tmax;
             path.push(index);
             match &*instance.child {
                 Accel::Gas(gas) => {
-                    let sink = Sink { gas, place, path, state: &mut *state };
+                    let sink = HitSink { gas, context, path, state: &mut *state };
                     simd.run(LeafRay { sink, programs: &mut *programs, far: false });
                 }
                 Accel::Ias(ias) => {
-                    simd.run(AtIas { ias, place, state: &mut *state, path: &mut *path, programs: &mut *programs });
+                    simd.run(IasTraversal {
+                        ias,
+                        context,
+                        state: &mut *state,
+                        path: &mut *path,
+                        programs: &mut *programs,
+                    });
                 }
             }
             path.pop();
-            state.limit(before, limit, frame)
+            state.limit(before, limit, prepared)
         });
     }
 }

@@ -10,14 +10,14 @@ use super::aabb::Aabb;
 
 /// A node: two children, or one primitive.
 #[derive(Clone, Copy, Debug)]
-pub enum Link {
+pub enum BinaryNode {
     Inner(u32, u32),
     Primitive(u32),
 }
 
 /// A binary hierarchy with exact bounds, parents before children, node 0 the root.
-pub struct Binary {
-    pub links: Vec<Link>,
+pub struct BinaryBvh {
+    pub links: Vec<BinaryNode>,
     pub bounds: Vec<Aabb>,
 }
 
@@ -26,7 +26,7 @@ const MAX_DEPTH_FOR_REINSERTION: usize = 64;
 /// Part of the nodes that reinsertion looks at in its first of 16 rounds.
 const REINSERTION_RATIO: f32 = 0.15;
 
-impl Binary {
+impl BinaryBvh {
     /// A tree of low surface-area cost: agglomerative clustering (Meister and Bittner, "Parallel Locally-Ordered
     /// Clustering", 2018) and reinsertion ("Parallel Reinsertion", 2018), both by obvhs.
     ///
@@ -46,7 +46,7 @@ impl Binary {
             ReinsertionOptimizer::default().run(&mut tree, REINSERTION_RATIO, None);
         }
 
-        let mut links = vec![Link::Primitive(0)];
+        let mut links = vec![BinaryNode::Primitive(0)];
         let mut open = vec![(0, Source::Node(0))];
         while let Some((to, source)) = open.pop() {
             let halves = match source {
@@ -60,7 +60,7 @@ impl Binary {
                     [Source::Node(node.first_index), Source::Node(node.first_index + 1)]
                 }
                 Source::Equals(begin, end) if end - begin == 1 => {
-                    links[to] = Link::Primitive(active[groups.order[begin] as usize]);
+                    links[to] = BinaryNode::Primitive(active[groups.order[begin] as usize]);
                     continue;
                 }
                 Source::Equals(begin, end) => {
@@ -69,8 +69,8 @@ impl Binary {
                 }
             };
             let left = links.len();
-            links.extend([Link::Primitive(0); 2]);
-            links[to] = Link::Inner(left as u32, left as u32 + 1);
+            links.extend([BinaryNode::Primitive(0); 2]);
+            links[to] = BinaryNode::Inner(left as u32, left as u32 + 1);
             let [first, second] = halves;
             open.extend([(left + 1, second), (left, first)]);
         }
@@ -80,12 +80,12 @@ impl Binary {
     /// A balanced tree: halves the primitives at the median of the longest axis of their centres.
     pub fn by_median(boxes: &[Aabb], active: &[u32]) -> Self {
         let mut order = active.to_vec();
-        let mut links = vec![Link::Primitive(0)];
+        let mut links = vec![BinaryNode::Primitive(0)];
         let mut open = vec![(0, 0, order.len())];
         while let Some((to, begin, end)) = open.pop() {
             let part = &mut order[begin..end];
             links[to] = if let [only] = part {
-                Link::Primitive(*only)
+                BinaryNode::Primitive(*only)
             } else {
                 let centre =
                     |i: u32, a: usize| f64::from(boxes[i as usize].min[a]) + f64::from(boxes[i as usize].max[a]);
@@ -102,20 +102,20 @@ impl Binary {
                     centre(i, axis).total_cmp(&centre(j, axis)).then(i.cmp(&j))
                 });
                 let left = links.len();
-                links.extend([Link::Primitive(0); 2]);
+                links.extend([BinaryNode::Primitive(0); 2]);
                 open.extend([(left + 1, begin + middle, end), (left, begin, begin + middle)]);
-                Link::Inner(left as u32, left as u32 + 1)
+                BinaryNode::Inner(left as u32, left as u32 + 1)
             };
         }
         Self::with_bounds(links, boxes)
     }
 
-    fn with_bounds(links: Vec<Link>, boxes: &[Aabb]) -> Self {
+    fn with_bounds(links: Vec<BinaryNode>, boxes: &[Aabb]) -> Self {
         let mut bounds = vec![Aabb::EMPTY; links.len()];
         for i in (0..links.len()).rev() {
             bounds[i] = match links[i] {
-                Link::Inner(left, right) => bounds[left as usize].union(&bounds[right as usize]),
-                Link::Primitive(primitive) => boxes[primitive as usize],
+                BinaryNode::Inner(left, right) => bounds[left as usize].union(&bounds[right as usize]),
+                BinaryNode::Primitive(primitive) => boxes[primitive as usize],
             };
         }
         Self { links, bounds }

@@ -6,7 +6,7 @@
 
 use super::WIDTH;
 use super::aabb::Aabb;
-use super::binary::{Binary, Link};
+use super::binary::{BinaryBvh, BinaryNode};
 
 /// What a leaf may hold, and what it costs against visiting a node.
 #[derive(Clone, Copy, Debug)]
@@ -20,16 +20,16 @@ pub struct Shape {
 pub const SINGLE_LEAF: Shape = Shape { leaf_size: 1, leaf_cost: 1.0 };
 
 /// Which wide nodes to make of a binary tree.
-pub struct Plan {
-    tree: Binary,
+pub struct Collapse {
+    tree: BinaryBvh,
     size: Vec<u32>,
     /// `split[n][i]` for `i >= 1`: trees of the forest of `i + 1` that the left child gets, 0 to use one tree less.
     /// `split[n][0]`: the same for the eight children of a wide node made of `n`; 0 for a leaf.
     split: Vec<[u8; WIDTH - 1]>,
 }
 
-impl Plan {
-    pub fn new(tree: Binary, shape: Shape) -> Self {
+impl Collapse {
+    pub fn new(tree: BinaryBvh, shape: Shape) -> Self {
         let count = tree.links.len();
         let root_area = tree.bounds[0].half_area();
         let scale = if root_area > 0.0 { 1.0 / root_area } else { 1.0 };
@@ -40,7 +40,7 @@ impl Plan {
             // The second part makes the fewest nodes the best where there is no area at all.
             let area = (tree.bounds[n].half_area() * scale) as f32 + 1e-7;
             let as_leaf = area * shape.leaf_cost;
-            let Link::Inner(left, right) = tree.links[n] else {
+            let BinaryNode::Inner(left, right) = tree.links[n] else {
                 cost[n] = [as_leaf; WIDTH - 1];
                 continue;
             };
@@ -73,14 +73,14 @@ impl Plan {
     }
 
     /// Three levels of the binary tree to each wide one, whatever the cost.
-    pub fn by_levels(tree: Binary, shape: Shape) -> Self {
-        let mut plan = Self::new(tree, shape);
-        for (n, split) in plan.split.iter_mut().enumerate() {
-            if plan.size[n] > shape.leaf_size {
+    pub fn by_levels(tree: BinaryBvh, shape: Shape) -> Self {
+        let mut collapse = Self::new(tree, shape);
+        for (n, split) in collapse.split.iter_mut().enumerate() {
+            if collapse.size[n] > shape.leaf_size {
                 *split = [4, 1, 0, 2, 0, 0, 0];
             }
         }
-        plan
+        collapse
     }
 
     pub fn root(&self) -> u32 {
@@ -99,7 +99,7 @@ impl Plan {
     pub fn children(&self, n: u32) -> Vec<u32> {
         let mut children = Vec::with_capacity(WIDTH);
         match self.tree.links[n as usize] {
-            Link::Inner(left, right) if !self.is_leaf(n) => {
+            BinaryNode::Inner(left, right) if !self.is_leaf(n) => {
                 let k = usize::from(self.split[n as usize][0]);
                 self.forest(left, k, &mut children);
                 self.forest(right, WIDTH - k, &mut children);
@@ -115,7 +115,7 @@ impl Plan {
             return;
         }
         match (self.tree.links[n as usize], usize::from(self.split[n as usize][trees - 1])) {
-            (Link::Inner(left, right), k) if k > 0 => {
+            (BinaryNode::Inner(left, right), k) if k > 0 => {
                 self.forest(left, k, roots);
                 self.forest(right, trees - k, roots);
             }
@@ -130,8 +130,8 @@ impl Plan {
         let mut open = vec![n];
         while let Some(n) = open.pop() {
             match self.tree.links[n as usize] {
-                Link::Inner(left, right) => open.extend([left, right]),
-                Link::Primitive(primitive) => into.push(primitive),
+                BinaryNode::Inner(left, right) => open.extend([left, right]),
+                BinaryNode::Primitive(primitive) => into.push(primitive),
             }
         }
         into.sort_unstable();

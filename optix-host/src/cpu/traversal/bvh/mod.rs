@@ -7,8 +7,8 @@ mod collapse;
 pub use aabb::Aabb;
 pub use collapse::{SINGLE_LEAF, Shape};
 
-use binary::Binary;
-use collapse::Plan;
+use binary::BinaryBvh;
+use collapse::Collapse;
 
 /// Children of a node, and lanes of a block of triangles.
 pub const WIDTH: usize = 8;
@@ -101,31 +101,31 @@ impl Bvh {
         if active.is_empty() {
             return Self { nodes: Vec::new(), bounds: Aabb::EMPTY };
         }
-        let mut plan = Plan::new(Binary::by_surface_area(boxes, &active), shape);
-        if plan.depth() > MAX_DEPTH {
+        let mut collapse = Collapse::new(BinaryBvh::by_surface_area(boxes, &active), shape);
+        if collapse.depth() > MAX_DEPTH {
             // Sizes that grow exponentially make a chain of any hierarchy of low cost, and the stack must hold anyway:
             // of 2^29 primitives, the most there may be, this one has 10 levels.
-            plan = Plan::by_levels(Binary::by_median(boxes, &active), shape);
+            collapse = Collapse::by_levels(BinaryBvh::by_median(boxes, &active), shape);
         }
 
         let mut nodes = vec![Node::EMPTY];
-        let mut open = vec![(0, plan.root())];
+        let mut open = vec![(0, collapse.root())];
         let mut primitives = Vec::new();
         while let Some((slot, wide)) = open.pop() {
-            for (lane, child) in plan.children(wide).into_iter().enumerate() {
-                let reference = if plan.is_leaf(child) {
-                    plan.primitives(child, &mut primitives);
+            for (lane, child) in collapse.children(wide).into_iter().enumerate() {
+                let reference = if collapse.is_leaf(child) {
+                    collapse.primitives(child, &mut primitives);
                     Child::leaf(leaf(&primitives))
                 } else {
                     nodes.push(Node::EMPTY);
                     open.push((nodes.len() - 1, child));
                     Child::node(nodes.len() - 1)
                 };
-                nodes[slot].set(lane, plan.bounds(child), reference);
+                nodes[slot].set(lane, collapse.bounds(child), reference);
             }
         }
         nodes.shrink_to_fit();
-        Self { nodes, bounds: *plan.bounds(plan.root()) }
+        Self { nodes, bounds: *collapse.bounds(collapse.root()) }
     }
 
     /// No nodes, just a box around everything.

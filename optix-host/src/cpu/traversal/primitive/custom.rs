@@ -2,7 +2,7 @@
 
 use super::{LeafRay, Leaves, Primitives};
 use crate::cpu::traversal::bvh::{Aabb, Bvh, SINGLE_LEAF};
-use crate::cpu::traversal::candidate::Sink;
+use crate::cpu::traversal::candidate::HitSink;
 use crate::cpu::traversal::flags::Verdict;
 use crate::cpu::traversal::gas::Gas;
 use crate::cpu::traversal::program::Reporter;
@@ -41,17 +41,17 @@ impl Leaves for Custom {
     /// Has the intersection program look at a primitive.
     #[inline(always)]
     fn visit<S: Simd>(&self, _: S, ray: &mut LeafRay<'_, '_>, primitive: u32, limit: f32) -> f32 {
-        let Sink { gas, place, path, ref mut state } = ray.sink;
+        let HitSink { gas, context, path, ref mut state } = ray.sink;
         let record = gas.record_of(primitive);
-        let sink = Sink { gas, place, path, state };
+        let sink = HitSink { gas, context, path, state };
         let verdict = sink.verdict(record);
         if verdict == Verdict::Cull {
             return limit;
         }
         let before = sink.state.tmax;
-        let site = place.site(gas, path, primitive, record);
-        ray.programs.intersect(&site, &mut Reporter { sink, primitive, record, verdict });
-        ray.sink.state.limit(before, limit, &place.space.frame)
+        let of_primitive = context.of_primitive(gas, path, primitive, record);
+        ray.programs.intersect(&of_primitive, &mut Reporter { sink, primitive, record, verdict });
+        ray.sink.state.limit(before, limit, &context.space.prepared)
     }
 
     /// Only a structure without boxes has no nodes.

@@ -2,13 +2,13 @@
 //! programs ask of a primitive afterwards.
 //!
 //! A new kind is a file that implements [`Leaves`], and a variant of [`Primitives`]. What becomes of a hit is not its business: it
-//! offers what it finds to the [`Sink`](super::candidate::Sink).
+//! submits what it finds to the [`HitSink`](super::candidate::HitSink).
 
 pub mod custom;
 pub mod triangle;
 
 use super::bvh::Bvh;
-use super::candidate::Sink;
+use super::candidate::HitSink;
 use super::program::Programs;
 use super::simd::Simd;
 use crate::geometry::{BuildInput, BuildInputs, PrimitiveArray};
@@ -46,7 +46,7 @@ impl Primitives {
 
 /// A ray in the space of a structure of primitives.
 pub struct LeafRay<'t, 'a> {
-    pub sink: Sink<'t, 'a>,
+    pub sink: HitSink<'t, 'a>,
     pub programs: &'t mut dyn Programs,
     /// Whether differences of coordinates may overflow.
     pub far: bool,

@@ -10,8 +10,8 @@ impl Programs for Solid<'_> {
         AnyHit::Accept
     }
 
-    fn intersect(&mut self, site: &Site<'_>, reporter: &mut Reporter<'_, '_>) {
-        let (Aabb { min, max }, ray) = (self.0[site.primitive_index as usize], site.object_ray);
+    fn intersect(&mut self, context: &PrimitiveContext<'_>, reporter: &mut Reporter<'_, '_>) {
+        let (Aabb { min, max }, ray) = (self.0[context.primitive_index as usize], context.object_ray);
         let (mut near, mut far) = (0.0f64, f64::INFINITY);
         for a in 0..3 {
             let at = |plane: f32| (f64::from(plane) - f64::from(ray.origin[a])) / f64::from(ray.direction[a]);
@@ -180,7 +180,7 @@ fn rays_that_are_none_in_an_instance() {
         fn any_hit(&mut self, _: &Candidate<'_>) -> AnyHit {
             AnyHit::Accept
         }
-        fn intersect(&mut self, _: &Site<'_>, _: &mut Reporter<'_, '_>) {}
+        fn intersect(&mut self, _: &PrimitiveContext<'_>, _: &mut Reporter<'_, '_>) {}
         fn no_ray(&mut self, path: &InstancePath<'_>, object_ray: &Ray) {
             self.0.push((path.indices().to_vec(), *object_ray));
         }

@@ -127,11 +127,11 @@ fn programs_see_the_object_ray() {
     struct Look(Vec<Ray>);
     impl Programs for Look {
         fn any_hit(&mut self, candidate: &Candidate<'_>) -> AnyHit {
-            self.0.push(candidate.site.object_ray);
+            self.0.push(candidate.context.object_ray);
             AnyHit::Accept
         }
-        fn intersect(&mut self, site: &Site<'_>, reporter: &mut Reporter<'_, '_>) {
-            self.0.push(site.object_ray);
+        fn intersect(&mut self, context: &PrimitiveContext<'_>, reporter: &mut Reporter<'_, '_>) {
+            self.0.push(context.object_ray);
             assert_eq!(reporter.tmax(), f32::INFINITY);
             assert!(reporter.report(self, 8.0, 1, &[]));
             assert_eq!((reporter.tmax(), reporter.is_terminated()), (8.0, false));

@@ -22,7 +22,7 @@ impl Programs for Opaque {
         AnyHit::Accept
     }
 
-    fn intersect(&mut self, _: &Site<'_>, _: &mut Reporter<'_, '_>) {}
+    fn intersect(&mut self, _: &PrimitiveContext<'_>, _: &mut Reporter<'_, '_>) {}
 }
 
 /// Programs that answer every any-hit call alike and write it down; custom primitives report the given hits.
@@ -42,12 +42,12 @@ impl Scripted {
 
 impl Programs for Scripted {
     fn any_hit(&mut self, candidate: &Candidate<'_>) -> AnyHit {
-        let site = &candidate.site;
-        self.calls.push((site.primitive_index, candidate.t, candidate.hit_kind, site.sbt_index));
+        let context = &candidate.context;
+        self.calls.push((context.primitive_index, candidate.t, candidate.hit_kind, context.sbt_index));
         self.answer
     }
 
-    fn intersect(&mut self, _: &Site<'_>, reporter: &mut Reporter<'_, '_>) {
+    fn intersect(&mut self, _: &PrimitiveContext<'_>, reporter: &mut Reporter<'_, '_>) {
         self.sites += 1;
         for (t, kind) in self.reports.clone() {
             let accepted = reporter.report(self, t, kind, &[kind.into()]);

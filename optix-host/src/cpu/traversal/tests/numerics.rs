@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::super::bvh::SINGLE_LEAF;
 use super::super::bvh::{Bvh, Lanes};
 use super::super::primitive::triangle::intersect::{self as triangle, Block, Sheared, TriangleHit, edge};
-use super::super::ray::{Axis, BoxRay, Frame, ShearRay};
+use super::super::ray::{Axis, BoxRay, PreparedRay, ShearRay};
 use super::super::simd::Task;
 use super::*;
 use crate::cpu::traversal::simd::Portable;
@@ -91,9 +91,9 @@ fn case(random: &mut Random, spread: (i32, i32)) -> ([[f32; 3]; 3], Ray) {
     (corners, Ray { origin, direction })
 }
 
-fn frame(ray: &Ray, corners: &[[f32; 3]]) -> Option<Frame> {
-    let frame = Frame::new(&ray.origin, &ray.direction, 0.0)?;
-    (frame.is_far(&Aabb::around(corners)) == Some(false)).then_some(frame)
+fn prepared(ray: &Ray, corners: &[[f32; 3]]) -> Option<PreparedRay> {
+    let prepared = PreparedRay::new(&ray.origin, &ray.direction, 0.0)?;
+    (prepared.is_far(&Aabb::around(corners)) == Some(false)).then_some(prepared)
 }
 
 /// The exact test of a triangle in object space, sheared by the operations of the vector kernels.
@@ -155,15 +155,15 @@ fn hits_and_distances_keep_their_bound() {
     for i in 0..600_000 {
         let spread = [(-3, 3), (-20, 1), (-100, -90), (90, 100), (-40, 40), (10, 12)][i % 6];
         let (corners, ray) = case(&mut random, spread);
-        let Some(frame) = frame(&ray, &corners) else { continue };
-        let got = hit(&frame.shear, corners);
-        let Some(exact) = reference(&corners, &ray, frame.shear.axes) else { continue };
+        let Some(prepared) = prepared(&ray, &corners) else { continue };
+        let got = hit(&prepared.shear, corners);
+        let Some(exact) = reference(&corners, &ray, prepared.shear.axes) else { continue };
         if let Some(TriangleHit { t, u, v, .. }) = got {
             assert!(t.is_finite() && (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v));
         }
         // Corners move by up to 6 e r on two axes, so the border moves by at most 6 sqrt(2) e r.
         let margin = 8.5 * e * exact.reach;
-        let ahead = exact.depth / frame.shear.major > 0.0 && exact.depth.abs() > 1e4 * margin;
+        let ahead = exact.depth / prepared.shear.major > 0.0 && exact.depth.abs() > 1e4 * margin;
         if exact.inside > margin && ahead {
             sure_hits += 1;
             assert!(got.is_some(), "{corners:?} {ray:?} inside by {}", exact.inside / margin);
@@ -174,9 +174,9 @@ fn hits_and_distances_keep_their_bound() {
         }
         // The first-order bound is meant for triangles much larger than the rounding.
         let (Some(got), true) = (got, exact.smallest_height > 1e4 * margin) else { continue };
-        let depth = f64::from(got.t) * frame.shear.major;
+        let depth = f64::from(got.t) * prepared.shear.major;
         let bound = e * exact.reach * (1.0 + 6.0 * exact.tilt) * 1.01 + e * exact.depth.abs() * 1.01;
-        let tiny = f64::from(f32::MIN_POSITIVE) * frame.shear.major.abs();
+        let tiny = f64::from(f32::MIN_POSITIVE) * prepared.shear.major.abs();
         assert!((depth - exact.depth).abs() <= bound + tiny, "{} of the bound", (depth - exact.depth).abs() / bound);
         worst = worst.max((depth - exact.depth).abs() / bound);
         checked += 1;
@@ -191,10 +191,10 @@ fn hits_and_distances_keep_their_bound() {
 fn brute_force(vertices: &[[f32; 3]], indices: &[[u32; 3]], query: &RayQuery) -> Option<(f32, u32)> {
     let ray = Ray { origin: query.origin, direction: query.direction };
     let used: Vec<_> = indices.iter().flatten().map(|&i| vertices[i as usize]).collect();
-    let frame = frame(&ray, &used)?;
+    let prepared = prepared(&ray, &used)?;
     let mut best: Option<(f32, u32)> = None;
     for (i, corners) in indices.iter().enumerate() {
-        if let Some(hit) = hit(&frame.shear, corners.map(|i| vertices[i as usize]))
+        if let Some(hit) = hit(&prepared.shear, corners.map(|i| vertices[i as usize]))
             && hit.t >= query.tmin
             && best.map_or(hit.t <= query.tmax, |(t, _)| hit.t < t)
         {
@@ -282,7 +282,7 @@ fn vector_kernels_are_bit_identical() {
     struct Both<'t> {
         block: &'t Block,
         bvh: &'t Bvh,
-        frame: &'t Frame,
+        prepared: &'t PreparedRay,
         ray: &'t BoxRay,
         limit: f32,
     }
@@ -294,9 +294,9 @@ fn vector_kernels_are_bit_identical() {
                 let met = simd.boxes(node, self.ray, self.limit, &mut near);
                 (met, (0..8).filter(|i| met >> i & 1 != 0).map(|i| near.0[i].to_bits()).collect())
             });
-            let depths = [self.frame.depth_min, self.limit];
+            let depths = [self.prepared.depth_min, self.limit];
             let mut sheared = Sheared::default();
-            let met = simd.triangles(self.block, &self.frame.shear, depths, &mut sheared);
+            let met = simd.triangles(self.block, &self.prepared.shear, depths, &mut sheared);
             let corners = sheared.iter().flatten().flat_map(|axis| axis.0.map(f32::to_bits)).collect();
             (met, corners, boxes.collect())
         }
@@ -311,16 +311,16 @@ fn vector_kernels_are_bit_identical() {
         let ray = cases[0].1;
         // The rays of `case` end at `t = 1` on their triangles' planes, so these intervals cut.
         let (tmin, tmax) = ([0.0, 1.0][i / 4 % 2], [f32::INFINITY, 1.0][i % 2]);
-        let Some(frame) = Frame::new(&ray.origin, &ray.direction, tmin) else { continue };
+        let Some(prepared) = PreparedRay::new(&ray.origin, &ray.direction, tmin) else { continue };
         let bvh = Bvh::build(&boxes, SINGLE_LEAF, |primitives| primitives[0]);
-        let Some(ray) = frame.boxes(&bvh.bounds, 1.0) else { continue };
+        let Some(ray) = prepared.boxes(&bvh.bounds, 1.0) else { continue };
         let block = Block::new(&[0, 1, 2, 3, 4, 5, 6, 7], &triangles);
-        let limit = frame.depth_max(tmax);
-        let task = || Both { block: &block, bvh: &bvh, frame: &frame, ray: &ray, limit };
+        let limit = prepared.depth_max(tmax);
+        let task = || Both { block: &block, bvh: &bvh, prepared: &prepared, ray: &ray, limit };
         let (a, b) = (avx2.run(task()), Portable.run(task()));
         assert_eq!(a, b);
         for (lane, &triangle) in triangles.iter().enumerate() {
-            if hit(&frame.shear, triangle).is_some_and(|hit| hit.t >= tmin && hit.t <= tmax) {
+            if hit(&prepared.shear, triangle).is_some_and(|hit| hit.t >= tmin && hit.t <= tmax) {
                 assert!(a.0 >> lane & 1 != 0, "the vector test dropped a hit");
             }
         }

@@ -23,7 +23,7 @@
 //! From the signs on everything is in `f64`, so `t`, `u` and `v` are those of the triangle with sheared corners
 //! `(x_i, y_i, z_i)`, rounded once to `f32` (relative error `2^-24 (1 + 2^-25)`). The sheared corners differ from the
 //! exact ones by at most `6 e r` in `x` and `y` and `e r` in `z`, where `r` is the largest distance on any axis of
-//! a corner from the ray's origin (derivation in [`Frame::boxes`](crate::cpu::traversal::ray::Frame::boxes); one `e r` more for the
+//! a corner from the ray's origin (derivation in [`PreparedRay::boxes`](crate::cpu::traversal::ray::PreparedRay::boxes); one `e r` more for the
 //! rounding of the slope). For a triangle that is the plane `z = z_0 + g_x x + g_y y` in exact sheared coordinates, the
 //! depth is thus off by about `e r (1 + 6 |g_x| + 6 |g_y|)`, and never leaves the depths of its corners.
 

@@ -7,7 +7,7 @@ pub use simd::TriangleSimd;
 
 use super::{LeafRay, Leaves, Primitives};
 use crate::cpu::traversal::bvh::{Aabb, Bvh, Shape, WIDTH};
-use crate::cpu::traversal::candidate::Offer;
+use crate::cpu::traversal::candidate::PotentialHit;
 use crate::cpu::traversal::flags::Verdict;
 use crate::cpu::traversal::gas::Gas;
 use crate::cpu::traversal::program::{Candidate, Hit};
@@ -111,13 +111,13 @@ impl Triangles {
     /// Tests the triangles of a block that `used` has a bit for. Gives the new limit of depth, as [`Leaves::visit`] does.
     #[inline(always)]
     fn visit_block<S: Simd>(&self, simd: S, ray: &mut LeafRay<'_, '_>, index: usize, used: u32, limit: f32) -> f32 {
-        let (block, frame, before) = (&self.blocks[index], &ray.sink.place.space.frame, ray.sink.state.tmax);
+        let (block, prepared, before) = (&self.blocks[index], &ray.sink.context.space.prepared, ray.sink.state.tmax);
         if ray.far {
             visit_far_block(simd, ray, block, index, used, limit);
         } else {
-            test_block(simd, ray, block, &frame.shear, [frame.depth_min, limit], index, used);
+            test_block(simd, ray, block, &prepared.shear, [prepared.depth_min, limit], index, used);
         }
-        ray.sink.state.limit(before, limit, frame)
+        ray.sink.state.limit(before, limit, prepared)
     }
 }
 
@@ -125,9 +125,9 @@ impl Triangles {
 #[cold]
 #[inline(never)]
 fn visit_far_block<S: Simd>(simd: S, ray: &mut LeafRay<'_, '_>, block: &Block, index: usize, used: u32, limit: f32) {
-    let frame = &ray.sink.place.space.frame;
-    let depths = [frame.depth_min * SHRINK, limit * SHRINK];
-    test_block(simd, ray, &block.shrunk(), &frame.shear.shrunk(), depths, index, used);
+    let prepared = &ray.sink.context.space.prepared;
+    let depths = [prepared.depth_min * SHRINK, limit * SHRINK];
+    test_block(simd, ray, &block.shrunk(), &prepared.shear.shrunk(), depths, index, used);
 }
 
 /// Decides about the triangles of a block that `used` has a bit for.
@@ -149,7 +149,7 @@ fn test_block<S: Simd>(
         let Some(hit) = intersect::hit(shear, intersect::lane_of(&sheared, lane)) else { continue };
         let primitive = block.primitives[lane];
         if ray.sink.admits(hit.t, primitive) {
-            offer(ray, hit, primitive, (index * WIDTH + lane) as u32);
+            submit(ray, hit, primitive, (index * WIDTH + lane) as u32);
             if ray.sink.state.ended {
                 return;
             }
@@ -157,16 +157,16 @@ fn test_block<S: Simd>(
     }
 }
 
-/// Offers a hit that the interval admits, unless flags hide the triangle.
+/// Submits a hit that the interval admits, unless flags hide the triangle.
 #[inline]
-fn offer(ray: &mut LeafRay<'_, '_>, hit: TriangleHit, primitive: u32, slot: u32) {
+fn submit(ray: &mut LeafRay<'_, '_>, hit: TriangleHit, primitive: u32, slot: u32) {
     let record = ray.sink.gas.record_of(primitive);
     let verdict = ray.sink.verdict(record);
     if verdict == Verdict::Cull {
         return;
     }
     let Some(front) = ray.sink.facing(record, hit.front) else { return };
-    let offer = Offer {
+    let hit = PotentialHit {
         t: hit.t,
         hit_kind: if front { FRONT_FACE } else { BACK_FACE },
         attributes: [hit.u.to_bits(), hit.v.to_bits(), 0, 0, 0, 0, 0, 0],
@@ -174,7 +174,7 @@ fn offer(ray: &mut LeafRay<'_, '_>, hit: TriangleHit, primitive: u32, slot: u32)
         record,
         slot,
     };
-    ray.sink.take(offer, verdict, ray.programs);
+    ray.sink.submit(hit, verdict, ray.programs);
 }
 
 impl Gas {
@@ -189,7 +189,7 @@ impl Gas {
         Some(if has_area(&corners) { corners } else { [[f32::NAN; 3]; 3] })
     }
 
-    /// The corners of the triangle in a lane of a block; see [`Found::slot`](crate::cpu::traversal::state::Found::slot).
+    /// The corners of the triangle in a lane of a block; see [`CommittedHit::slot`](crate::cpu::traversal::state::CommittedHit::slot).
     #[inline]
     fn triangle_in(&self, slot: u32) -> Option<[[f32; 3]; 3]> {
         let Primitives::Triangles(triangles) = &self.primitives else { return None };
@@ -200,7 +200,7 @@ impl Gas {
 impl Candidate<'_> {
     /// The corners of the triangle, in object space; `None` for another primitive.
     pub fn triangle_vertices(&self) -> Option<[[f32; 3]; 3]> {
-        self.site.gas.triangle_in(self.slot)
+        self.context.gas.triangle_in(self.slot)
     }
 }
 
