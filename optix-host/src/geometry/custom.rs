@@ -1,6 +1,6 @@
 //! Custom primitives, given by their bounding boxes.
 
-use super::{GeometryError, IntoGeometry, PrimitiveArray};
+use super::{BuildInput, BuildInputs, GasPrimitive, GeometryError, IntoGeometry, PrimitiveArray};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use optix_device_rs::primitive::Custom;
@@ -77,8 +77,17 @@ impl CustomPrimitiveArray {
     }
 }
 
+impl GasPrimitive for Custom {
+    type Array = CustomPrimitiveArray;
+}
+
 impl PrimitiveArray for CustomPrimitiveArray {
+    type Primitive = Custom;
     const NAME: &'static str = "custom geometry";
+
+    fn inputs(inputs: Vec<BuildInput<Self>>) -> BuildInputs {
+        BuildInputs::Custom(inputs)
+    }
 
     fn len(&self) -> usize {
         self.bounds.len()

@@ -1,8 +1,7 @@
 //! Geometry as both machines take it, and the only checks of what users give (guide 5.1).
 //!
 //! A kind of primitive is a file: the builder that users see, and a checked array of primitives, which nothing but its check
-//! makes. The kind is registered here, as a [`GasPrimitive`] and as a variant of [`BuildInputs`], which is what a machine builds
-//! a GAS of.
+//! makes. It is registered here, as a variant of [`BuildInputs`] and an arm of `of_any_kind`.
 
 mod custom;
 mod input;
@@ -16,12 +15,18 @@ pub use records::{GeometryFlags, Records};
 pub use triangles::{TriangleArray, TriangleMesh};
 
 use crate::error::BuildError;
-use optix_device_rs::primitive::{Custom, Primitive, PrimitiveType, Triangles};
+use optix_device_rs::primitive::{Primitive, PrimitiveType};
 
 /// A checked array of primitives of one kind. Read-only: what was checked stays as it was.
-pub trait PrimitiveArray: Send + Sync + 'static {
+pub trait PrimitiveArray: Sized + Send + Sync + 'static {
+    /// The kind.
+    type Primitive: GasPrimitive<Array = Self>;
+
     /// The kind, for messages.
     const NAME: &'static str;
+
+    /// Build inputs of this kind.
+    fn inputs(inputs: Vec<BuildInput<Self>>) -> BuildInputs;
 
     /// How many primitives there are.
     fn len(&self) -> usize;
@@ -40,10 +45,7 @@ pub trait PrimitiveArray: Send + Sync + 'static {
 /// A kind of primitive that GASes are built of: what a device program calls it, with the array that a host gives.
 pub trait GasPrimitive: Primitive {
     /// Checked primitives of this kind.
-    type Array: PrimitiveArray;
-
-    /// Build inputs of this kind.
-    fn inputs(inputs: Vec<BuildInput<Self::Array>>) -> BuildInputs;
+    type Array: PrimitiveArray<Primitive = Self>;
 }
 
 /// Something that users give as geometry.
@@ -64,59 +66,39 @@ pub enum BuildInputs {
     Custom(Vec<BuildInput<CustomPrimitiveArray>>),
 }
 
-impl GasPrimitive for Triangles {
-    type Array = TriangleArray;
-
-    fn inputs(inputs: Vec<BuildInput<TriangleArray>>) -> BuildInputs {
-        BuildInputs::Triangles(inputs)
-    }
+/// Does the same with build inputs of any kind.
+macro_rules! of_any_kind {
+    ($inputs:expr, $of_kind:ident => $body:expr) => {
+        match $inputs {
+            $crate::geometry::BuildInputs::Triangles($of_kind) => $body,
+            $crate::geometry::BuildInputs::Custom($of_kind) => $body,
+        }
+    };
 }
+pub(crate) use of_any_kind;
 
-impl GasPrimitive for Custom {
-    type Array = CustomPrimitiveArray;
-
-    fn inputs(inputs: Vec<BuildInput<CustomPrimitiveArray>>) -> BuildInputs {
-        BuildInputs::Custom(inputs)
-    }
-}
-
-impl From<Vec<BuildInput<TriangleArray>>> for BuildInputs {
-    fn from(inputs: Vec<BuildInput<TriangleArray>>) -> Self {
-        Self::Triangles(inputs)
-    }
-}
-
-impl From<Vec<BuildInput<CustomPrimitiveArray>>> for BuildInputs {
-    fn from(inputs: Vec<BuildInput<CustomPrimitiveArray>>) -> Self {
-        Self::Custom(inputs)
+impl<A: PrimitiveArray> From<Vec<BuildInput<A>>> for BuildInputs {
+    fn from(inputs: Vec<BuildInput<A>>) -> Self {
+        A::inputs(inputs)
     }
 }
 
 impl BuildInputs {
     /// Which kind it is.
     pub fn kind(&self) -> PrimitiveType {
-        match self {
-            Self::Triangles(_) => Triangles::TYPE,
-            Self::Custom(_) => Custom::TYPE,
+        fn kind<A: PrimitiveArray>(_: &[BuildInput<A>]) -> PrimitiveType {
+            A::Primitive::TYPE
         }
+        of_any_kind!(self, inputs => kind(inputs))
     }
 
     /// The most motion keys of an input.
     pub fn motion_keys(&self) -> usize {
-        fn most<A: PrimitiveArray>(inputs: &[BuildInput<A>]) -> usize {
-            inputs.iter().map(|input| input.primitives().motion_keys()).max().unwrap_or(1)
-        }
-        match self {
-            Self::Triangles(inputs) => most(inputs),
-            Self::Custom(inputs) => most(inputs),
-        }
+        of_any_kind!(self, inputs => inputs.iter().map(|input| input.primitives().motion_keys()).max().unwrap_or(1))
     }
 
     /// Whether a GAS may have as many primitives and records as these.
     pub(crate) fn check(&self, limits: GasLimits) -> Result<(), BuildError> {
-        match self {
-            Self::Triangles(inputs) => limits.check(inputs),
-            Self::Custom(inputs) => limits.check(inputs),
-        }
+        of_any_kind!(self, inputs => limits.check(inputs))
     }
 }

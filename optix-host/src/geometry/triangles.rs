@@ -1,6 +1,6 @@
 //! Triangles.
 
-use super::{GeometryError, IntoGeometry, PrimitiveArray};
+use super::{BuildInput, BuildInputs, GasPrimitive, GeometryError, IntoGeometry, PrimitiveArray};
 use glam::Vec3;
 use optix_device_rs::primitive::Triangles;
 
@@ -89,8 +89,17 @@ impl TriangleArray {
     }
 }
 
+impl GasPrimitive for Triangles {
+    type Array = TriangleArray;
+}
+
 impl PrimitiveArray for TriangleArray {
+    type Primitive = Triangles;
     const NAME: &'static str = "a triangle mesh";
+
+    fn inputs(inputs: Vec<BuildInput<Self>>) -> BuildInputs {
+        BuildInputs::Triangles(inputs)
+    }
 
     fn len(&self) -> usize {
         self.indices.as_ref().map_or(self.vertices.len() / 3, Vec::len)

@@ -13,7 +13,7 @@ use crate::plan::{Graph, Plan};
 use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
 use crate::scene::{BuiltAccel, GasInput, IasInput, SceneError};
 use crate::{Error, Result};
-use optix_device_rs::host::{self as device, DeviceId, Kept, Memory, MemoryError, PrimitiveType};
+use optix_device_rs::host::{self as device, DeviceId, Kept, Memory, MemoryError};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -273,12 +273,8 @@ impl Groups<'_> {
 }
 
 fn pipeline_options(plan: &Plan) -> PipelineOptions {
-    let primitives = plan.primitives.iter().fold(PrimitiveKinds::default(), |all, kind| {
-        all.with(match kind {
-            PrimitiveType::Triangle => PrimitiveKinds::TRIANGLE,
-            PrimitiveType::Custom => PrimitiveKinds::CUSTOM,
-        })
-    });
+    let primitives =
+        plan.primitives.iter().fold(PrimitiveKinds::default(), |all, &kind| all.with(PrimitiveKinds::from(kind)));
     PipelineOptions {
         motion_blur: plan.motion,
         graph: match plan.graph {

@@ -3,7 +3,7 @@
 use super::{Accel, BuiltAccel, GasInput, Geometry, Material, SceneState, Slot};
 use crate::Result;
 use crate::error::{BuildError, SceneError};
-use crate::geometry::{BuildInput, GasPrimitive, GeometryFlags, PrimitiveArray, Records};
+use crate::geometry::{BuildInput, BuildInputs, GasPrimitive, GeometryFlags, PrimitiveArray, Records};
 use optix_device_rs::pipeline::HasHitGroup;
 use optix_device_rs::record::SbtRecord;
 use std::marker::PhantomData;
@@ -63,10 +63,10 @@ impl SceneState {
             if member.scenes.iter().any(|&scene| scene != self.id) {
                 return Err(SceneError::ForeignMaterial { geometry: index }.into());
             }
-            let input = BuildInput::new(member.primitives.clone(), member.records.clone());
+            let input = BuildInput::<G::Array>::new(member.primitives.clone(), member.records.clone());
             Ok(input.map_err(|error| BuildError::Input { input: index, error })?)
         });
-        let inputs = G::inputs(inputs.collect::<Result<_>>()?);
+        let inputs = BuildInputs::from(inputs.collect::<Result<Vec<_>>>()?);
         Ok(GasInput { inputs, compact, random_vertex_access })
     }
 

@@ -3,7 +3,7 @@
 use super::bvh::{Aabb, Bvh};
 use super::primitive::Primitives;
 use crate::error::BuildError;
-use crate::geometry::{BuildInput, BuildInputs, GasLimits, GeometryFlags, PrimitiveArray};
+use crate::geometry::{BuildInput, BuildInputs, GasLimits, GeometryFlags, PrimitiveArray, of_any_kind};
 use crate::limits::{MAX_PRIMITIVES, MAX_RECORDS_OF_GAS};
 
 const LIMITS: GasLimits = GasLimits { primitives: MAX_PRIMITIVES, records: MAX_RECORDS_OF_GAS };
@@ -109,10 +109,7 @@ struct Numbering {
 impl Numbering {
     fn of(inputs: &BuildInputs) -> Self {
         let mut table = Self::default();
-        match inputs {
-            BuildInputs::Triangles(inputs) => table.add(inputs),
-            BuildInputs::Custom(inputs) => table.add(inputs),
-        }
+        of_any_kind!(inputs, inputs => table.add(inputs));
         table
     }
 

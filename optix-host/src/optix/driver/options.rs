@@ -1,5 +1,6 @@
 //! Options that all modules of a pipeline share (guide 6.3).
 
+use optix_device_rs::primitive::PrimitiveType;
 use std::ffi::CString;
 
 use super::context::Context;
@@ -111,6 +112,15 @@ impl PrimitiveKinds {
     #[must_use]
     pub fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)
+    }
+}
+
+impl From<PrimitiveType> for PrimitiveKinds {
+    fn from(kind: PrimitiveType) -> Self {
+        match kind {
+            PrimitiveType::Triangle => Self::TRIANGLE,
+            PrimitiveType::Custom => Self::CUSTOM,
+        }
     }
 }
 

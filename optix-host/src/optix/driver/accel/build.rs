@@ -17,28 +17,16 @@ pub(super) struct RawInput {
 }
 
 impl RawInput {
-    /// `vertices` holds a device address a motion key, `flags` an entry a record.
-    pub(super) fn triangles(array: sys::OptixBuildInputTriangleArray, vertices: Box<[u64]>, flags: Box<[u32]>) -> Self {
-        let triangle_array =
-            sys::OptixBuildInputTriangleArray { vertex_buffers: vertices.as_ptr(), flags: flags.as_ptr(), ..array };
-        Self::new(Type::TRIANGLES, |union| union.triangle_array = triangle_array, vertices, flags)
-    }
-
-    /// `aabbs` holds a device address a motion key, `flags` an entry a record.
-    pub(super) fn aabbs(array: sys::OptixBuildInputCustomPrimitiveArray, aabbs: Box<[u64]>, flags: Box<[u32]>) -> Self {
-        let custom_primitive_array =
-            sys::OptixBuildInputCustomPrimitiveArray { aabb_buffers: aabbs.as_ptr(), flags: flags.as_ptr(), ..array };
-        Self::new(Type::CUSTOM_PRIMITIVES, |union| union.custom_primitive_array = custom_primitive_array, aabbs, flags)
-    }
-
-    pub(super) fn instances(instance_array: sys::OptixBuildInputInstanceArray) -> Self {
-        Self::new(Type::INSTANCES, |union| union.instance_array = instance_array, Box::default(), Box::default())
-    }
-
-    /// The union is zero apart from the member that counts.
-    fn new(kind: Type, fill: impl FnOnce(&mut Union), buffers: Box<[u64]>, flags: Box<[u32]>) -> Self {
+    /// `fill` writes the member of the union that counts, which stays zero elsewhere, with the addresses that this keeps:
+    /// `buffers` has a device address for each motion key, `flags` an entry for each record.
+    pub(super) fn new(
+        kind: Type,
+        buffers: Box<[u64]>,
+        flags: Box<[u32]>,
+        fill: impl FnOnce(&mut Union, *const u64, *const u32),
+    ) -> Self {
         let mut input = sys::OptixBuildInput { kind, ..Default::default() };
-        fill(&mut input.input);
+        fill(&mut input.input, buffers.as_ptr(), flags.as_ptr());
         Self { input, _buffers: buffers, _flags: flags }
     }
 }

@@ -30,7 +30,14 @@ impl ToInput for CustomPrimitiveArray {
             primitive_index_offset: input.primitive_index_offset(),
             ..Default::default()
         };
-        Ok(RawInput::aabbs(array, Box::new([bounds]), records.flags))
+        Ok(RawInput::new(
+            sys::OptixBuildInputType::CUSTOM_PRIMITIVES,
+            Box::new([bounds]),
+            records.flags,
+            |union, aabb_buffers, flags| {
+                union.custom_primitive_array = sys::OptixBuildInputCustomPrimitiveArray { aabb_buffers, flags, ..array }
+            },
+        ))
     }
 }
 

@@ -5,7 +5,7 @@ use super::build::{RawInput, build};
 use super::staging::{Staging, Upload};
 use super::{Accel, AccelOptions};
 use crate::error::DriverError as Error;
-use crate::geometry::{BuildInput, BuildInputs, GasLimits};
+use crate::geometry::{BuildInput, BuildInputs, GasLimits, of_any_kind};
 
 /// A kind of primitive that OptiX takes. Each has one conversion.
 pub(super) trait ToInput: Sized {
@@ -24,12 +24,7 @@ unsafe fn to_inputs(inputs: &BuildInputs, upload: &mut impl Upload) -> Result<Ve
         inputs.iter().map(|input| unsafe { A::to_input(input, upload) }).collect()
     }
     // SAFETY: the caller's.
-    unsafe {
-        match inputs {
-            BuildInputs::Triangles(inputs) => each(inputs, upload),
-            BuildInputs::Custom(inputs) => each(inputs, upload),
-        }
-    }
+    unsafe { of_any_kind!(inputs, inputs => each(inputs, upload)) }
 }
 
 impl Accel {

@@ -61,12 +61,16 @@ impl Accel {
         let mut staging = Staging::new(context);
         // SAFETY: `staging` is declared after `raw`, so it is dropped, and waits for the copy, before `raw` goes.
         let address = unsafe { staging.elements(&raw)? };
-        let input = RawInput::instances(sys::OptixBuildInputInstanceArray {
+        let instance_array = sys::OptixBuildInputInstanceArray {
             instances: address,
             // Checked against the limit, which has 32 bits.
             num_instances: raw.len() as u32,
             instance_stride: 0,
-        });
+        };
+        let input =
+            RawInput::new(sys::OptixBuildInputType::INSTANCES, Box::default(), Box::default(), |union, _, _| {
+                union.instance_array = instance_array
+            });
         // SAFETY: the address belongs to `staging`, is aligned to 256 bytes and holds the instances, whose handles are
         // those of `children`.
         Ok(unsafe { build(context, &[input], options, children, depth)? })

@@ -32,7 +32,14 @@ impl ToInput for TriangleArray {
         array.sbt_index_offset_size_in_bytes = records.index_size;
         // SAFETY: as above.
         let vertices = unsafe { upload.elements(triangles.vertices())? };
-        Ok(RawInput::triangles(array, Box::new([vertices]), records.flags))
+        Ok(RawInput::new(
+            sys::OptixBuildInputType::TRIANGLES,
+            Box::new([vertices]),
+            records.flags,
+            |union, vertex_buffers, flags| {
+                union.triangle_array = sys::OptixBuildInputTriangleArray { vertex_buffers, flags, ..array }
+            },
+        ))
     }
 }
 
