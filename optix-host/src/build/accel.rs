@@ -56,7 +56,7 @@ impl<P: Pipeline, G: GasPrimitive> GasBuilder<'_, P, G> {
 impl<P: Pipeline> GasBuilder<'_, P, Triangles> {
     /// Builds it so that programs may read its triangles, which takes a little more memory
     /// (`OPTIX_BUILD_FLAG_ALLOW_RANDOM_VERTEX_ACCESS`, guide 13.9). The table is what a field of type
-    /// [`TriangleVertices`](optix_device_rs::accel::TriangleVertices) holds.
+    /// [`TriangleVertices`](optix_device_rs::primitive::TriangleVertices) holds.
     pub fn build_with_triangles(self) -> Result<(Accel<P>, TriangleTable)> {
         let device = self.scene.device.clone();
         let counts: Vec<u32> = self.members.iter().flat_map(GasMember::primitives_by_record).collect();

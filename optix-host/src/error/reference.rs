@@ -1,6 +1,6 @@
 //! Why a pipeline's programs can't use a structure or a callable that a record or launch parameters hold.
 
-use super::words::{Words, errors};
+use super::words::{Words, errors, number};
 
 /// What is wrong with a structure or a callable that a record or launch parameters hold.
 #[derive(Clone, PartialEq)]
@@ -47,8 +47,9 @@ impl ReferenceError {
             ),
             Self::GraphTooDeep { levels, planned, graph } => (
                 format!(
-                    "a graph with {levels} levels of instances, but the pipeline was specialised to {graph}, the deepest that \
-                     the scene had then ({planned})"
+                    "a graph with {} of instances, but the pipeline was specialised to {graph}, the deepest that \
+                     the scene had then ({planned})",
+                    number(levels as usize, "level")
                 ),
                 "build the pipeline after the acceleration structures",
             ),

@@ -6,6 +6,11 @@ use std::fmt;
 /// What is wrong, with the place, and what to do about it.
 pub(super) type Words = (String, Cow<'static, str>);
 
+/// A number of things, such as `1 level` and `2 levels`.
+pub(super) fn number(count: usize, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+}
+
 /// Prints both.
 pub(super) fn print(f: &mut fmt::Formatter<'_>, (problem, remedy): Words) -> fmt::Result {
     write!(f, "{problem}\n  what to do: {remedy}")
