@@ -293,7 +293,7 @@ impl AccelHandle<'_> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is read-only",
     label = "programs only read this view",
-    note = "declare the field as `SliceMut<..>`; its host twin is the same"
+    note = "declare the field as `SliceMut<..>`; its host counterpart is the same"
 )]
 pub trait Writable {}
 impl<T> crate::view::Slice<T> {

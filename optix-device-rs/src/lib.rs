@@ -84,7 +84,7 @@ pub mod program;
 pub mod ray;
 pub mod record;
 pub mod rng;
-pub mod spawn;
+pub mod surface;
 pub mod view;
 pub mod words;
 

@@ -23,9 +23,9 @@ pub unsafe trait LaunchParams: DeviceData + ParamsSymbol {
     const FIELDS: &'static [Field];
     /// What a program gets from `params()`: a method per field.
     type View<'a>: From<ParamsBase<'a, Self>>;
-    /// What the application fills in: `Self`, or the twin in which buffers stand in place of views.
+    /// What the application fills in: `Self`, or the host counterpart in which buffers stand in place of views.
     #[cfg(not(target_arch = "nvptx64"))]
-    type Host: crate::host::Twin<Device = Self>;
+    type Host: crate::host::HostData<Device = Self>;
 }
 
 /// Loads from the parameter symbol by constant address; one per parameter struct, since PTX names the symbol in the

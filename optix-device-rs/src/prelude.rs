@@ -18,7 +18,7 @@ pub use crate::program::{
 pub use crate::ray::{AnyHitMode, CullFaces, Decision, Ray, RayFlags, Traversable};
 pub use crate::record::SbtRecord;
 pub use crate::rng::Pcg32;
-pub use crate::spawn::SurfacePoint;
+pub use crate::surface::SurfacePoint;
 pub use crate::view::{Element, Slice, SliceMut, SliceMut2d};
 pub use crate::words::Words;
 pub use glam::{

@@ -123,7 +123,7 @@ unsafe fn write<T: Element>(at: *mut T, value: T) {
 fn element<T>(what: &str, address: u64, index: u32, len: u32) -> *mut T {
     let message = format_args!("{what} index {index} is out of range: the buffer has {len} elements");
     let offset = u64::from(index) * size_of::<T>() as u64;
-    crate::intrinsics::place_if([(index, len)], address, offset, message).cast()
+    crate::intrinsics::checked_address([(index, len)], address, offset, message).cast()
 }
 
 macro_rules! linear_view {
@@ -204,7 +204,7 @@ macro_rules! linear_view {
                     return self.get(index);
                 }
                 // SAFETY: in range, says the caller, and `from_raw` promised `len` valid elements.
-                unsafe { read(crate::intrinsics::place(self.address).cast::<T>().add(index as usize)) }
+                unsafe { read(crate::intrinsics::address_of(self.address).cast::<T>().add(index as usize)) }
             }
         }
     };
@@ -247,7 +247,7 @@ impl<T: Element> SliceMut<T> {
             return self.set(index, value);
         }
         // SAFETY: in range, says the caller, and `from_raw` promised `len` valid elements.
-        unsafe { write(crate::intrinsics::place(self.address).cast::<T>().add(index as usize), value) }
+        unsafe { write(crate::intrinsics::address_of(self.address).cast::<T>().add(index as usize), value) }
     }
 }
 
@@ -305,7 +305,7 @@ impl<T: Element> SliceMut2d<T> {
             format_args!("({}, {}) is out of range: the array has {} x {} elements", at.x, at.y, size.x, size.y);
         let index = u64::from(at.y) * u64::from(size.x) + u64::from(at.x);
         let offset = index.wrapping_mul(size_of::<T>() as u64);
-        crate::intrinsics::place_if([(at.x, size.x), (at.y, size.y)], self.address, offset, message).cast()
+        crate::intrinsics::checked_address([(at.x, size.x), (at.y, size.y)], self.address, offset, message).cast()
     }
 
     /// The element in column `at.x` of row `at.y`. A place outside ends the launch.

@@ -136,7 +136,7 @@ macro_rules! two_words {
             }
             #[inline(always)]
             unsafe fn load(words: &[u32]) -> Self {
-                let $bits = crate::intrinsics::wide(words[0], words[1]);
+                let $bits = crate::intrinsics::join_words(words[0], words[1]);
                 $from
             }
         }

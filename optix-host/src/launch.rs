@@ -5,7 +5,7 @@ use crate::error::LaunchError;
 use crate::limits::launch_size;
 use crate::{Error, Pipeline, Result};
 use optix_device_rs::data::DeviceData;
-use optix_device_rs::host::{KeepAlive, Kept, Twin};
+use optix_device_rs::host::{HostData, KeepAlive, Kept};
 use optix_device_rs::params::LaunchParams;
 use optix_device_rs::pipeline::{HasRayGen, Pipeline as PipelineType};
 

@@ -1,4 +1,4 @@
-//! `DeviceData`, with the host twin of structs that hold views.
+//! `DeviceData`, with the host counterpart of structs that hold views.
 
 use crate::shape::{Field, Form, Struct, construct};
 use crate::support::{Errors, block, device_crate, device_crate_outside, docs, layout, moved, place_of};
@@ -14,8 +14,8 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     };
     model.require_repr_c("a device-data struct", &mut errors);
     let data = device_data(&model, Fields::Data, "struct");
-    let twin = twin(&model, &mut errors);
-    let items = twin.items;
+    let host_data = host_data(&model, &mut errors);
+    let items = host_data.items;
     let errors = errors.into_tokens();
     quote!(#errors #data #items)
 }
@@ -147,14 +147,14 @@ pub fn touch(model: &Struct) -> TokenStream {
     }
 }
 
-/// The host twin: its type, and the items that make it.
-pub struct Twin {
+/// The host counterpart: its type, and the items that make it.
+pub struct HostData {
     pub host: Ident,
     pub items: TokenStream,
 }
 
-/// What says that a struct without views is plain data, and its own twin.
-pub fn own_twin(model: &Struct) -> TokenStream {
+/// What says that a struct without views is plain data, and its own host counterpart.
+pub fn own_host_data(model: &Struct) -> TokenStream {
     let (krate, ident, bounds) = (&device_crate(), &model.ident, struct_bounds(model));
     block(quote! {
         // SAFETY: no field is a view, and each is plain itself.
@@ -162,7 +162,7 @@ pub fn own_twin(model: &Struct) -> TokenStream {
         unsafe impl #krate::data::Plain for #ident #bounds {}
         #[cfg(not(target_arch = "nvptx64"))]
         #[automatically_derived]
-        unsafe impl #krate::host::Twin for #ident #bounds {
+        unsafe impl #krate::host::HostData for #ident #bounds {
             type Device = #ident;
             #[inline]
             fn lower(&self, _: &mut #krate::host::KeepAlive) -> #ident {
@@ -172,20 +172,20 @@ pub fn own_twin(model: &Struct) -> TokenStream {
     })
 }
 
-/// The struct is its own twin, or has one in which owners stand in place of views.
-pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
+/// The struct is its own host counterpart, or has one in which owners stand in place of views.
+pub fn host_data(model: &Struct, errors: &mut Errors) -> HostData {
     let (krate, ident, vis) = (&device_crate(), &model.ident, &model.vis);
     if !model.has_views() {
-        return Twin { host: ident.clone(), items: own_twin(model) };
+        return HostData { host: ident.clone(), items: own_host_data(model) };
     }
     if model.form == Form::Tuple {
         errors.at(
             ident,
             format!(
-                "`{ident}` holds views of device memory, so its fields need names: its host twin has the same ones"
+                "`{ident}` holds views of device memory, so its fields need names: its host counterpart has the same ones"
             ),
         );
-        return Twin { host: ident.clone(), items: TokenStream::new() };
+        return HostData { host: ident.clone(), items: TokenStream::new() };
     }
     let outside = device_crate_outside();
     let (bounds, views, views_outside) =
@@ -240,7 +240,7 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
             }
         }
         #[automatically_derived]
-        unsafe impl #krate::host::Twin for #host #bounds {
+        unsafe impl #krate::host::HostData for #host #bounds {
             type Device = #ident;
             fn lower(&self, __keep: &mut #krate::host::KeepAlive) -> #ident {
                 #lowered
@@ -250,7 +250,7 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
         unsafe impl #krate::host::View for #ident #bounds {
             type Owner = #host;
             fn of(__owner: &#host, __keep: &mut #krate::host::KeepAlive) -> Self {
-                #krate::host::Twin::lower(__owner, __keep)
+                #krate::host::HostData::lower(__owner, __keep)
             }
         }
     });
@@ -263,14 +263,14 @@ pub fn twin(model: &Struct, errors: &mut Errors) -> Twin {
         {
             #(#fields,)*
         }
-        // So that a crate may name the twin without asking which machine it is compiled for.
+        // So that a crate may name the host counterpart without asking which machine it is compiled for.
         #[doc(hidden)]
         #[cfg(target_arch = "nvptx64")]
         #vis enum #host {}
         #[cfg(not(target_arch = "nvptx64"))]
         #impls
     };
-    Twin { host, items }
+    HostData { host, items }
 }
 
 /// The user's doc comment, or another.

@@ -1,6 +1,6 @@
 //! `#[derive(Element)]`: what a device buffer holds.
 
-use crate::data::{Fields, device_data, own_twin, struct_bounds};
+use crate::data::{Fields, device_data, own_host_data, struct_bounds};
 use crate::shape::Struct;
 use crate::support::{Errors, block, device_crate, moved, place_of};
 use proc_macro2::TokenStream;
@@ -31,7 +31,7 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
             const _: () = #krate::#check(#name, __core::mem::size_of::<#ident>(), &[#(#places),*]);
         }
     });
-    let (data, twin) = (device_data(&model, Fields::Elements, "element"), own_twin(&model));
+    let (data, own) = (device_data(&model, Fields::Elements, "element"), own_host_data(&model));
     let bounds = struct_bounds(&model);
     let errors = errors.into_tokens();
     let element = block(quote! {
@@ -40,5 +40,5 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
         unsafe impl #krate::view::Element for #ident #bounds {}
         #no_padding
     });
-    quote!(#errors #data #twin #element)
+    quote!(#errors #data #own #element)
 }

@@ -105,7 +105,7 @@ pub fn derive_payload(input: TokenStream) -> TokenStream {
 ///     pub normals: Slice<Vec3>,
 /// }
 ///
-/// // An application fills in the host twin, in which a buffer stands in the view's place.
+/// // An application fills in the host counterpart, in which a buffer stands in the view's place.
 /// fn paint(normals: optix_device_rs::host::Buffer<Vec3>) -> LambertHost {
 ///     LambertHost { albedo: Vec3::ONE, normals }
 /// }
@@ -117,8 +117,8 @@ pub fn derive_payload(input: TokenStream) -> TokenStream {
 /// # Views and twins
 /// A field is a view if its type's name is `Slice`, `SliceMut`, `SliceMut2d`, `Traversable`, `Instances`,
 /// `TriangleVertices`, `Callable` or `Callables`, or an array of these. A view under another name, and a struct with views that derives `DeviceData`, needs `#[view]` on the
-/// field; without it the field does not compile. A struct with views has a twin, `LambertHost`, with the same fields and visibilities; one
-/// without is its own. In a device build the twin's name stands for a type without values, so that `pub use
+/// field; without it the field does not compile. A struct with views has a host counterpart, `LambertHost`, with the same fields and visibilities; one
+/// without is its own. In a device build the host counterpart's name stands for a type without values, so that `pub use
 /// materials::LambertHost;` needs no `#[cfg]`.
 #[proc_macro_derive(SbtRecord, attributes(view))]
 pub fn derive_sbt_record(input: TokenStream) -> TokenStream {
@@ -271,7 +271,7 @@ pub fn derive_user_exception(input: TokenStream) -> TokenStream {
 /// fields have no `#[cfg(..)]`: host and device see the same ones.
 /// `Frame` gets:
 /// - a view, `FrameView`, with a method for each field: what `params()` returns in a program;
-/// - a host twin, `FrameHost`, if it has views (see [`SbtRecord`](macro@SbtRecord)): what a launch takes;
+/// - a host counterpart, `FrameHost`, if it has views (see [`SbtRecord`](macro@SbtRecord)): what a launch takes;
 /// - for each field with `#[bound]` a constant, `Frame::MAX_BOUNCES`, that names it with its type.
 #[proc_macro_attribute]
 pub fn launch_params(arguments: TokenStream, item: TokenStream) -> TokenStream {

@@ -1,6 +1,6 @@
 //! `#[launch_params]`.
 
-use crate::data::{Fields, device_data, docs_or, struct_bounds, twin};
+use crate::data::{Fields, device_data, docs_or, host_data, struct_bounds};
 use crate::place::place;
 use crate::shape::{Field, Repr, Struct, is_slice};
 use crate::source;
@@ -46,8 +46,8 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
     };
     check(&model, &mut errors);
     let data = device_data(&model, Fields::Data, "launch-parameter struct");
-    let twin = twin(&model, &mut errors);
-    let (host, twin) = (twin.host, twin.items);
+    let host_data = host_data(&model, &mut errors);
+    let (host, host_data) = (host_data.host, host_data.items);
     let bounds = bounds(&model);
     let view = view(&model);
     let params = launch_params(&model, &host);
@@ -58,7 +58,7 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
         #missing
         #item
         #data
-        #twin
+        #host_data
         #bounds
         #view
         #params

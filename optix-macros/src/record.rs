@@ -1,6 +1,6 @@
 //! `#[derive(SbtRecord)]`.
 
-use crate::data::{Fields, device_data, struct_bounds, twin};
+use crate::data::{Fields, device_data, host_data, struct_bounds};
 use crate::shape::Struct;
 use crate::support::{Errors, block, device_crate};
 use proc_macro2::TokenStream;
@@ -15,8 +15,8 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
     model.require_repr_c("an SBT record", &mut errors);
     let (krate, ident, name) = (&device_crate(), &model.ident, model.name());
     let data = device_data(&model, Fields::Data, "record");
-    let twin = twin(&model, &mut errors);
-    let (host, items) = (twin.host, twin.items);
+    let host_data = host_data(&model, &mut errors);
+    let (host, items) = (host_data.host, host_data.items);
     let bounds = struct_bounds(&model);
     let errors = errors.into_tokens();
     let record = block(quote! {

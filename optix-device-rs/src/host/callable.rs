@@ -1,4 +1,4 @@
-//! What an application holds of a callable: the host twins of `Callable` and `Callables`.
+//! What an application holds of a callable: the host counterparts of `Callable` and `Callables`.
 
 use super::{DeviceId, KeepAlive, Kept, View};
 use crate::callable::{Callable, CallableKind, Callables, Signature};
@@ -7,13 +7,13 @@ use core::marker::PhantomData;
 use std::any::Any;
 use std::sync::Arc;
 
-/// A record of the callables section: a callable with its data. The host twin of [`Callable`]; a clone is the same record.
+/// A record of the callables section: a callable with its data. The host counterpart of [`Callable`]; a clone is the same record.
 pub struct CallableRecord<F, K> {
     range: Range,
     types: PhantomData<fn() -> (F, K)>,
 }
 
-/// Records of the callables section one behind the other: the host twin of [`Callables`]. A clone is the same table.
+/// Records of the callables section one behind the other: the host counterpart of [`Callables`]. A clone is the same table.
 pub struct CallableTable<F, K> {
     range: Range,
     types: PhantomData<fn() -> (F, K)>,

@@ -129,7 +129,7 @@ pub unsafe trait Memory: Any + Send + Sync {
     fn write(&self, offset: usize, bytes: &[u8]) -> Result<(), MemoryError>;
 }
 
-/// A buffer of `T` on a device: the host twin of [`Slice`](crate::view::Slice) and
+/// A buffer of `T` on a device: the host counterpart of [`Slice`](crate::view::Slice) and
 /// [`SliceMut`](crate::view::SliceMut). A clone is the same buffer.
 pub struct Buffer<T> {
     pub(super) memory: Arc<dyn Memory>,
@@ -204,7 +204,7 @@ impl<T: Element> Buffer<T> {
     }
 }
 
-/// A two-dimensional buffer: the host twin of [`SliceMut2d`](crate::view::SliceMut2d). A clone is the same buffer.
+/// A two-dimensional buffer: the host counterpart of [`SliceMut2d`](crate::view::SliceMut2d). A clone is the same buffer.
 pub struct Buffer2d<T> {
     pub(super) buffer: Buffer<T>,
     pub(super) size: [u32; 2],
@@ -248,7 +248,7 @@ impl<T: Element> Buffer2d<T> {
     }
 }
 
-/// The instances of an IAS: the host twin of [`Instances`](crate::accel::Instances). A clone is of the same structure.
+/// The instances of an IAS: the host counterpart of [`Instances`](crate::accel::Instances). A clone is of the same structure.
 #[derive(Clone, Debug)]
 pub struct InstanceTable {
     pub(super) ias: World,
@@ -266,7 +266,7 @@ impl InstanceTable {
     }
 }
 
-/// The triangles of a GAS: the host twin of [`TriangleVertices`](crate::primitive::TriangleVertices). A clone is of the same
+/// The triangles of a GAS: the host counterpart of [`TriangleVertices`](crate::primitive::TriangleVertices). A clone is of the same
 /// structure.
 #[derive(Clone, Debug)]
 pub struct TriangleTable {
@@ -286,7 +286,7 @@ impl TriangleTable {
     }
 }
 
-/// An acceleration structure of a scene: the host twin of [`Traversable`](crate::ray::Traversable). A clone is the same structure.
+/// An acceleration structure of a scene: the host counterpart of [`Traversable`](crate::ray::Traversable). A clone is the same structure.
 #[derive(Clone)]
 pub struct World {
     pub(super) handle: u64,

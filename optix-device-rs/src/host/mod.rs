@@ -2,6 +2,7 @@
 //! call, and the owning twins of device views.
 
 mod callable;
+mod data;
 mod description;
 pub mod end;
 mod frame;
@@ -9,11 +10,11 @@ mod memory;
 mod reach;
 mod rule;
 pub mod shared;
-mod twin;
 
 pub use crate::intrinsics::TraceCall;
 pub use crate::primitive::PrimitiveType;
 pub use callable::{CallableRecord, CallableTable};
+pub use data::{HostData, KeepAlive, Kept, View};
 pub use description::{
     CallableDescription, Entry, ExceptionsDescription, HitGroupDescription, HitPrograms, ParamsDescription,
     PayloadDescription, PipelineDescription, ProgramDescription, RayDescription, RecordLayout,
@@ -25,4 +26,3 @@ pub use memory::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, MemoryError,
 pub use reach::{ByHandle, Handle, Reach};
 pub(crate) use reach::{memory, name_of};
 pub use rule::{Checked, Rule};
-pub use twin::{KeepAlive, Kept, Twin, View};

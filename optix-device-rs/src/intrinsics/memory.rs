@@ -42,7 +42,7 @@ pub fn check(
 
 /// Where the memory of a view begins. On the host the program ends if it is no view of the running launch.
 #[inline(always)]
-pub fn place(view: u64) -> *mut u8 {
+pub fn address_of(view: u64) -> *mut u8 {
     body! {
         ptx { view as *mut u8 }
         host { crate::host::memory(view).as_ptr() }
@@ -56,7 +56,7 @@ pub fn place(view: u64) -> *mut u8 {
 /// of instructions.
 #[cfg(target_arch = "nvptx64")]
 #[inline(always)]
-pub fn place_if<const N: usize>(
+pub fn checked_address<const N: usize>(
     in_range: [(u32, u32); N],
     view: u64,
     offset: u64,
@@ -83,7 +83,7 @@ pub fn place_if<const N: usize>(
 #[cfg(not(target_arch = "nvptx64"))]
 #[inline(always)]
 #[track_caller]
-pub fn place_if<const N: usize>(
+pub fn checked_address<const N: usize>(
     in_range: [(u32, u32); N],
     view: u64,
     offset: u64,
@@ -97,7 +97,7 @@ pub fn place_if<const N: usize>(
     if in_range.iter().any(|(index, len)| index >= len) {
         out_of_range(view, message, Location::caller());
     }
-    place(view).wrapping_add(offset as usize)
+    address_of(view).wrapping_add(offset as usize)
 }
 
 /// The 64-bit value of two words.
@@ -106,7 +106,7 @@ pub fn place_if<const N: usize>(
 /// arithmetic as free to be made again, and so computed a random sequence a second time behind each trace call (2 % of a path
 /// tracer's launch time).
 #[inline(always)]
-pub fn wide(low: u32, high: u32) -> u64 {
+pub fn join_words(low: u32, high: u32) -> u64 {
     body! {
         ptx {
             let wide: u64;

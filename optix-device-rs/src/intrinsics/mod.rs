@@ -28,7 +28,7 @@ pub use hit::{is_back_face, primitive_type_of};
 pub use launch::{ParamsBase, load_param};
 #[cfg(target_arch = "nvptx64")]
 pub use memory::trap;
-pub use memory::{check, place, place_if, wide};
+pub use memory::{address_of, check, checked_address, join_words};
 pub use payload::{UNWRITTEN, unwritten};
 pub use trace::TraceCall;
 
@@ -103,11 +103,8 @@ pub struct DeviceFunction {
 
 /// The tables of all files.
 #[cfg(not(target_arch = "nvptx64"))]
-pub const TABLES: &[&[DeviceFunction]] = &[
-    launch::FUNCTIONS,
-    ray::FUNCTIONS,
-    hit::FUNCTIONS,
-    transform::FUNCTIONS,
-    exception::FUNCTIONS,
-    crate::primitive::triangle::FUNCTIONS,
-];
+pub fn table() -> impl Iterator<Item = &'static DeviceFunction> {
+    let here: [&[DeviceFunction]; 5] =
+        [launch::FUNCTIONS, ray::FUNCTIONS, hit::FUNCTIONS, transform::FUNCTIONS, exception::FUNCTIONS];
+    here.into_iter().chain(crate::primitive::TABLES.iter().copied()).flatten()
+}

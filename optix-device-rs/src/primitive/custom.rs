@@ -19,6 +19,9 @@ impl Primitive for Custom {
     type ProgramOfBuiltIn<Program> = FitsEverywhere;
 }
 
+// What custom primitives carry is `attributes()`, which is of all kinds.
+device_functions! {}
+
 /// Attributes that an intersection program may report: those of custom primitives, by `#[derive(Attributes)]`.
 ///
 /// Hits of built-in primitives, as [`Triangles`](super::Triangles), are not among them. Closest-hit and any-hit programs of

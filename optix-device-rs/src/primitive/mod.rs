@@ -4,7 +4,7 @@
 //! To add a kind, write its file and name it below, where [`PrimitiveType`] is declared.
 
 mod custom;
-pub(crate) mod triangle;
+mod triangle;
 
 pub use custom::{Custom, Reported};
 pub use triangle::{OnTriangles, TriangleVertices, Triangles};
@@ -66,7 +66,7 @@ pub trait Attributes: Copy + 'static {
 }
 
 macro_rules! kinds {
-    ($($(#[$doc:meta])* $variant:ident = $kind:ident,)*) => {
+    ($($(#[$doc:meta])* $variant:ident = $module:ident::$kind:ident,)*) => {
         /// The kinds of primitive (`OptixPrimitiveType`).
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum PrimitiveType {
@@ -80,6 +80,10 @@ macro_rules! kinds {
         }
 
         $(impl Sealed for $kind {})*
+
+        /// The tables of device functions that ask about one kind of primitive.
+        #[cfg(not(target_arch = "nvptx64"))]
+        pub(crate) const TABLES: &[&[crate::intrinsics::DeviceFunction]] = &[$($module::FUNCTIONS),*];
 
         impl PrimitiveType {
             /// All of them.
@@ -122,9 +126,9 @@ macro_rules! kinds {
 
 kinds! {
     /// A primitive with an intersection program of the user's.
-    Custom = Custom,
+    Custom = custom::Custom,
     /// A built-in triangle.
-    Triangle = Triangles,
+    Triangle = triangle::Triangles,
 }
 
 /// `RangeInclusive::contains`, in constants.

@@ -8,7 +8,7 @@ use crate::layout::Layout;
 #[cfg(target_arch = "nvptx64")]
 use crate::math::Math;
 use crate::program::{Context, Face, HitKind, Transform};
-use crate::spawn::{SurfacePoint, TINY, U, gamma};
+use crate::surface::{SurfacePoint, TINY, U, gamma};
 use crate::view::Slice;
 use crate::words::{FromRaw, Words, words_of_raw};
 #[cfg(target_arch = "nvptx64")]
@@ -276,7 +276,22 @@ impl core::fmt::Debug for TriangleVertices {
 // ---- Points on a triangle, with their error ------------------------------------------------------------------------
 
 impl SurfacePoint {
-    /// The point at `barycentrics` of a triangle given in object space; see the type for the bound.
+    /// The point at `barycentrics` of a triangle given in object space. What the triangle brings to the bound, in the words and symbols of
+    /// [the type's documentation](SurfacePoint):
+    ///
+    /// 1. *vertices*, `gamma(9) |n|.l + u |n|.|p|`: how far a vertex is above the computed point. The cross product is
+    ///    computed so that each element is good to `2 u` (Jeannerod, Louvet and Muller 2013, "Further Analysis of Kahan's
+    ///    Algorithm"; in `f64` where that is cheaper), `3 u` with the scaling to length 1. So even a needle's `n` is perpendicular
+    ///    to its computed edges but for `3 u |n|.|e|`, whatever angle it makes with the true normal, which is not needed. Edges
+    ///    are rounded (1), `b1 e1 + b2 e2` rounds twice: over all vertices, at most `4 |e1| + 5 |e2|` or the like. Adding `p0`
+    ///    rounds `p`. The hit's own barycentrics may be off by any amount: they name a point of the plane.
+    /// 2. *the test*, `2 u |n|.l + 3 u L |n|_1`. After Woop, Benthin and Wald (2013, "Watertight Ray/Triangle Intersection")
+    ///    vertices are translated to the origin and sheared so that the ray is the `z` axis, which mixes axes: this is why the
+    ///    error of a plane `y = 0` is one of distances *within* the plane. From distances `a` and slopes `s <= 1`, a vertex gets
+    ///    `z = a_z` within `u |a_z|` and `x = a_x - s z` within `u (2 |a_x| + 2 s |z|)`, and `u s |z|` more since `s` is rounded. On the
+    ///    CPU all else is exact (`cpu/traversal/primitive/triangle/intersect.rs` of optix-host), so there are weights `w >= 0` of sum 1 with
+    ///    `sum w a = z s + E`, where `|E|` is `2 u l + 3 u L` at most: the hit is on the ray but for `E`. Its height is negative
+    ///    and the ray rises, so `z < 0` where `h > |n|.|E|`, for grazing rays as for others.
     #[inline(always)]
     pub fn of_triangle(
         [p0, p1, p2]: [Vec3; 3],

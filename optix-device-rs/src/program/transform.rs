@@ -7,7 +7,7 @@ use glam::{Mat3, Vec3};
 pub struct Transform {
     rows: [[f32; 4]; 3],
     /// Element by element, what the roundings of applying the map are proportional to: the magnitudes of `rows`, or more
-    /// where the map was composed in `f32`. See [`SurfacePoint`](crate::spawn::SurfacePoint).
+    /// where the map was composed in `f32`. See [`SurfacePoint`](crate::surface::SurfacePoint).
     sizes: [[f32; 4]; 3],
     /// How many maps were composed in `f32`.
     levels: u32,
@@ -111,7 +111,7 @@ fn concatenate(a: [[f32; 4]; 3], b: [[f32; 4]; 3]) -> [[f32; 4]; 3] {
 mod tests {
     use super::*;
     use crate::rng::Pcg32;
-    use crate::spawn::gamma;
+    use crate::surface::gamma;
 
     /// The arithmetic of a device that applies one map after the other, against `f64`.
     #[test]

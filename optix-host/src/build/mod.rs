@@ -8,7 +8,7 @@ pub use accel::{GasBuilder, IasBuilder};
 use crate::geometry::IntoGeometry;
 use crate::scene::{Geometry, Material, SceneState};
 use crate::{Device, Result};
-use optix_device_rs::host::Twin;
+use optix_device_rs::host::HostData;
 use optix_device_rs::payload::Payload;
 use optix_device_rs::pipeline::{HasException, HasRay, HasRayGen, Pipeline};
 use optix_device_rs::record::SbtRecord;
@@ -33,10 +33,10 @@ impl<P: Pipeline> Scene<P> {
         Ok(Geometry::of(geometry)?)
     }
 
-    /// Adds a material; `record` is the record struct, or its host twin where it holds views.
+    /// Adds a material; `record` is the record struct, or its host counterpart where it holds views.
     pub fn material<H>(&mut self, record: H) -> Result<Material<P, H::Device>>
     where
-        H: Twin<Device: SbtRecord<Host = H>>,
+        H: HostData<Device: SbtRecord<Host = H>>,
     {
         let record = self.state.lower(&record)?;
         self.state.add_material(record)

@@ -27,7 +27,7 @@ pub(crate) use material::MaterialState;
 use crate::Result;
 use crate::features::Features;
 use optix_device_rs::data::DeviceData;
-use optix_device_rs::host::{DeviceId, KeepAlive, Kept, PipelineDescription, Twin};
+use optix_device_rs::host::{DeviceId, HostData, KeepAlive, Kept, PipelineDescription};
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -92,7 +92,7 @@ impl SceneState {
     }
 
     /// The bytes of a record on the device, after a check that what it points to belongs to this scene and device.
-    pub(crate) fn lower<T: Twin>(&self, record: &T) -> Result<RecordData> {
+    pub(crate) fn lower<T: HostData>(&self, record: &T) -> Result<RecordData> {
         // SAFETY: the record keeps the owners beside the bytes.
         let mut keep = unsafe { KeepAlive::new() };
         let device_data = record.lower(&mut keep);

@@ -1,6 +1,6 @@
 //! What the macros make: layouts, semantics, twins, words, and programs that run on a frame.
 
-use optix_device_rs::host::{DeviceId, KeepAlive, Twin, World};
+use optix_device_rs::host::{DeviceId, HostData, KeepAlive, World};
 use optix_device_rs::payload::{Part, semantics::*};
 use optix_device_rs::pipeline::{HasHitGroup, HasRay, HasRayGen};
 use optix_device_rs::prelude::*;

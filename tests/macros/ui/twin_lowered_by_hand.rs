@@ -1,6 +1,6 @@
 // T05: a view lasts as long as a launch keeps its owner
 
-use optix_device_rs::host::{KeepAlive, Twin};
+use optix_device_rs::host::{KeepAlive, HostData};
 use optix_device_rs::prelude::*;
 
 #[derive(Clone, Copy, SbtRecord)]

@@ -1,7 +1,7 @@
 //! Rays that leave surfaces, and whether they meet again what they left: for the bound of `SurfacePoint`.
 
 use optix_device_rs::prelude::*;
-use optix_device_rs::spawn::gamma;
+use optix_device_rs::surface::gamma;
 use path_tracer_shaders::ball::{self, Ball, BallHit};
 
 /// A ray to a primitive, from whose hit others leave.

@@ -2,7 +2,7 @@
 
 use crate::{PathTracer, RadianceAtClosestHit, RadianceFromClosestHit};
 use optix_device_rs::prelude::*;
-use optix_device_rs::spawn::gamma;
+use optix_device_rs::surface::gamma;
 
 /// A ball in object space, around the origin.
 #[derive(Clone, Copy, SbtRecord)]

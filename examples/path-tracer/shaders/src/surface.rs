@@ -95,7 +95,7 @@ fn direct(
         return (Vec3::ZERO, 0);
     }
     // The light's own point is as exact as its coordinates.
-    let error = to.abs().max_element() * optix_device_rs::spawn::gamma(16);
+    let error = to.abs().max_element() * optix_device_rs::surface::gamma(16);
     let end = SurfacePoint::new(to, area_light.normal, error);
     let shadow = point.ray_to(&end).flags(RayFlags::NONE.terminate_on_first_hit());
     let share = cos_light * cos_surface / (core::f32::consts::PI * distance2 * distance2);

@@ -6,7 +6,7 @@ use core::cell::RefCell;
 use glam::Vec3;
 use optix_device_rs::host::end::fail;
 use optix_device_rs::host::{PayloadDescription, PayloadWatch, Rule, TraceCall};
-use optix_device_rs::spawn::gamma;
+use optix_device_rs::surface::gamma;
 
 /// Checks the arguments of a trace call. Returns what is known of its payload.
 pub(super) fn trace(launch: &Launch<'_>, trace: &TraceCall) -> Watch {

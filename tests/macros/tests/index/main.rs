@@ -216,10 +216,8 @@ fn device_functions_are_those_of_the_device_crate() {
     ];
     let contexts = device_functions::contexts();
     let marks = |has: &[&str]| contexts.map(|context| if has.contains(&context) { '1' } else { '0' });
-    let rows: BTreeMap<&str, String> = optix_device_rs::intrinsics::TABLES
-        .iter()
-        .flat_map(|rows| rows.iter().map(|row| (row.optix, marks(row.contexts).iter().collect())))
-        .collect();
+    let rows: BTreeMap<&str, String> =
+        optix_device_rs::intrinsics::table().map(|row| (row.optix, marks(row.contexts).iter().collect())).collect();
     for row in table("device_functions.tsv") {
         let (name, kinds, call) = (row[0].as_str(), &row[1], &row[2]);
         if call.contains("at.") && !WRITTEN_OUT.contains(&name) {

@@ -251,7 +251,7 @@ mod twin_triangles_of_instances {
 }
 
 mod twin_lowered_by_hand {
-    use optix_device_rs::host::{Buffer, KeepAlive, Twin};
+    use optix_device_rs::host::{Buffer, KeepAlive, HostData};
     use optix_device_rs::prelude::*;
 
     #[derive(Clone, Copy, SbtRecord)]

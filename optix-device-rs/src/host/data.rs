@@ -1,4 +1,4 @@
-//! Host twins: structs in which owning buffers stand in the place of device views.
+//! Host counterparts: structs in which owning buffers stand in the place of device views.
 
 use super::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, TriangleTable, World};
 use crate::accel::Instances;
@@ -77,17 +77,17 @@ impl KeepAlive {
     }
 }
 
-/// Host data that becomes device data: a struct without views is its own twin, a buffer is the twin of a view.
+/// Host data that becomes device data: a struct without views is its own host counterpart, a buffer is the host counterpart of a view.
 ///
 /// # Safety
-/// Views in what [`Twin::lower`] returns were made by that call, with its `keep`.
+/// Views in what [`HostData::lower`] returns were made by that call, with its `keep`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` can't be handed to a device",
-    label = "is not the host twin of any device type",
+    label = "is not the host counterpart of any device type",
     note = "a struct `Paint` that holds views is filled in on the host as `PaintHost`, with a buffer or the like in each view's place; any \
             other needs `#[derive(SbtRecord)]` or `#[derive(DeviceData)]`"
 )]
-pub unsafe trait Twin {
+pub unsafe trait HostData {
     /// What programs see.
     type Device: DeviceData;
     /// The device data; owners of what it points to go to `keep`.
@@ -95,12 +95,12 @@ pub unsafe trait Twin {
 }
 
 // SAFETY: there are no views.
-unsafe impl Twin for () {
+unsafe impl HostData for () {
     type Device = ();
     fn lower(&self, _: &mut KeepAlive) {}
 }
 
-/// Which host type stands in for a view in a host twin. Used by the derives.
+/// Which host type stands in for a view in a host counterpart. Used by the derives.
 ///
 /// # Safety
 /// What [`View::of`] returns is valid while what it handed to `keep` is kept.

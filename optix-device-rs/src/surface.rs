@@ -1,4 +1,5 @@
-//! Hit points with an error bound, so that rays that start there don't hit the surface they left.
+//! Hit points with an error bound, so that rays that start there don't hit the surface they left. What a kind of primitive brings to
+//! the bound is in its file, in [`primitive`](crate::primitive).
 
 use crate::program::Transform;
 use crate::ray::Ray;
@@ -39,21 +40,10 @@ pub(crate) const TINY: f32 = f32::MIN_POSITIVE * 16.0;
 /// edges `e1, e2`, the extent `l` (on each axis, the largest distance of two vertices), its largest element `L`, and the
 /// *computed* unit normal `n`. An instance has the matrices `M` (object to world) and `W` (world to object) as the program sees
 /// them; `x` is the point in world space; `|.|` goes by element. We ask for a *height* `h` above the point, along `n`, such that
-/// a ray which starts there and leaves to that side is not seen to meet the triangle. It is enough, as the sum of:
+/// a ray which starts there and leaves to that side is not seen to meet the triangle. It is enough, as a sum. Terms 1 and 2 are what the surface itself brings: how far a
+/// point is off, and how far its intersection test is. [`SurfacePoint::of_triangle`] has those of a triangle; those of a custom
+/// primitive its program knows ([`SurfacePoint::of_object`]). The others are:
 ///
-/// 1. *vertices*, `gamma(9) |n|.l + u |n|.|p|`: how far a vertex is above the computed point. The cross product is
-///    computed so that each element is good to `2 u` (Jeannerod, Louvet and Muller 2013, "Further Analysis of Kahan's
-///    Algorithm"; in `f64` where that is cheaper), `3 u` with the scaling to length 1. So even a needle's `n` is perpendicular
-///    to its computed edges but for `3 u |n|.|e|`, whatever angle it makes with the true normal, which is not needed. Edges
-///    are rounded (1), `b1 e1 + b2 e2` rounds twice: over all vertices, at most `4 |e1| + 5 |e2|` or the like. Adding `p0`
-///    rounds `p`. The hit's own barycentrics may be off by any amount: they name a point of the plane.
-/// 2. *the test*, `2 u |n|.l + 3 u L |n|_1`. After Woop, Benthin and Wald (2013, "Watertight Ray/Triangle Intersection")
-///    vertices are translated to the origin and sheared so that the ray is the `z` axis, which mixes axes: this is why the
-///    error of a plane `y = 0` is one of distances *within* the plane. From distances `a` and slopes `s <= 1`, a vertex gets
-///    `z = a_z` within `u |a_z|` and `x = a_x - s z` within `u (2 |a_x| + 2 s |z|)`, and `u s |z|` more since `s` is rounded. On the
-///    CPU all else is exact (`cpu/traversal/primitive/triangle/intersect.rs` of optix-host), so there are weights `w >= 0` of sum 1 with
-///    `sum w a = z s + E`, where `|E|` is `2 u l + 3 u L` at most: the hit is on the ray but for `E`. Its height is negative
-///    and the ray rises, so `z < 0` where `h > |n|.|E|`, for grazing rays as for others.
 /// 3. *direction*, `gamma(10) |n|.|W| |M| l`. The side is chosen by the computed world normal and direction: 7 roundings
 ///    on a term of `n.W d`; the machine's direction in object space has up to 3. So a grazing ray may dip, by that much of
 ///    `|n|.|W| |d|` for each unit of `t`. While it is over the triangle it covers `l` at most, in world space `|M| l`.
