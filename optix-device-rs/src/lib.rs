@@ -85,6 +85,7 @@ pub mod ray;
 pub mod record;
 pub mod rng;
 pub mod surface;
+pub mod texture;
 pub mod view;
 pub mod words;
 

@@ -19,6 +19,7 @@ pub use crate::ray::{AnyHitMode, CullFaces, Decision, Ray, RayFlags, Traversable
 pub use crate::record::SbtRecord;
 pub use crate::rng::Pcg32;
 pub use crate::surface::SurfacePoint;
+pub use crate::texture::{Texture1d, Texture2d, Texture2dArray, Texture3d, TextureCube};
 pub use crate::view::{Element, Slice, SliceMut, SliceMut2d};
 pub use crate::words::Words;
 pub use glam::{

@@ -5,7 +5,8 @@ use crate::Result;
 use crate::plan::Plan;
 use crate::sbt::ShaderBindingTable;
 use crate::scene::{BuiltAccel, GasInput, IasInput};
-use optix_device_rs::host::{DeviceId, Kept, Memory};
+use crate::texture::TextureInput;
+use optix_device_rs::host::{DeviceId, Kept, Memory, TextureMemory};
 use std::any::Any;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -19,6 +20,8 @@ pub(crate) trait Backend: Any + Send + Sync {
     /// Allocates zeroed memory for elements that the CPU accesses `width` bytes at a time
     /// ([`shared::width`](optix_device_rs::host::shared::width)).
     fn allocate(&self, bytes: usize, width: usize) -> Result<Arc<dyn Memory>>;
+    /// Makes a texture.
+    fn create_texture(&self, input: &TextureInput<'_>) -> Result<Arc<dyn TextureMemory>>;
     /// Builds a geometry acceleration structure.
     fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel>;
     /// Builds an instance acceleration structure.

@@ -25,18 +25,22 @@ pub mod pipeline;
 mod plan;
 pub mod sbt;
 pub mod scene;
+pub mod texture;
 
 pub use build::Scene;
 pub use device::{BackendKind, Device};
-pub use error::{Error, LaunchError, LayoutDifference, PipelineError, ReferenceError, Result, SceneError};
+pub use error::{
+    Error, LaunchError, LayoutDifference, PipelineError, ReferenceError, Result, SceneError, TextureError,
+};
 pub use geometry::{Aabb, CustomPrimitives, TriangleMesh};
 pub use glam;
 pub use launch::Launch;
 pub use optix::OptixOptions;
-pub use optix_device_rs::host::{Buffer, Buffer2d, InstanceTable, MemoryError, Rule, TriangleTable, World};
+pub use optix_device_rs::host::{Buffer, Buffer2d, InstanceTable, MemoryError, Rule, Texture, TriangleTable, World};
 pub use optix_report as report;
 pub use pipeline::{Pipeline, PipelineBuilder};
 pub use scene::{Accel, Geometry, Instance, Material};
+pub use texture::{AddressMode, FilterMode};
 
 /// The PTX of a shader crate that the build script compiled with `optix_toolchain::shaders`; the crate is named as in
 /// Rust paths. Empty where no device compiler was found.

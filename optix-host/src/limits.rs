@@ -15,6 +15,17 @@ pub const MAX_INSTANCES: usize = 1 << 28;
 pub const INSTANCE_BITS: u32 = 28;
 /// The greatest id of an instance, and the greatest record offset: see [`INSTANCE_BITS`].
 pub const MAX_INSTANCE_NUMBER: u32 = (1 << INSTANCE_BITS) - 1;
+/// The greatest width of a texture of one row, mip-mapped or not (CUDA programming guide, technical specifications; the least of
+/// compute capabilities from 5.0 on, as for the others).
+pub const MAX_TEXTURE_1D: u32 = 1 << 14;
+/// The greatest width and height of a texture, mip-mapped or layered.
+pub const MAX_TEXTURE_2D: u32 = 1 << 14;
+/// The greatest width, height and depth of a texture that is a box.
+pub const MAX_TEXTURE_3D: u32 = 1 << 12;
+/// The greatest width of the sides of a cube.
+pub const MAX_CUBE_WIDTH: u32 = 1 << 14;
+/// The most layers of a texture.
+pub const MAX_TEXTURE_LAYERS: u32 = 2048;
 /// The most launch indices of a launch (guide 12).
 pub const MAX_LAUNCH_SIZE: u64 = 1 << 30;
 /// The launch indices of a launch with these dimensions; none if that is no index at all, or more than [`MAX_LAUNCH_SIZE`].

@@ -50,7 +50,7 @@ impl<P: PipelineType> Pipeline<P> {
             Kept::Callables(_, shared) => {
                 shared.downcast_ref::<CallableShared>().map(|table| (table.scene, table.end > self.callables))
             }
-            Kept::Memory(_) | Kept::Read(_) => return Ok(()),
+            Kept::Memory(_) | Kept::Texture(_) | Kept::Read(_) => return Ok(()),
         };
         let held = kept.kind();
         match made {

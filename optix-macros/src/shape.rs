@@ -46,8 +46,21 @@ impl Field {
 }
 
 /// The names of the view types; an alias of one needs `#[view]`.
-const VIEWS: [&str; 8] =
-    ["Slice", "SliceMut", "SliceMut2d", "Traversable", "Instances", "TriangleVertices", "Callable", "Callables"];
+const VIEWS: [&str; 13] = [
+    "Slice",
+    "SliceMut",
+    "SliceMut2d",
+    "Texture1d",
+    "Texture2d",
+    "Texture2dArray",
+    "Texture3d",
+    "TextureCube",
+    "Traversable",
+    "Instances",
+    "TriangleVertices",
+    "Callable",
+    "Callables",
+];
 
 /// Whether the type is a view by its name, or an array of these.
 fn is_view(ty: &Type) -> bool {

@@ -1,10 +1,11 @@
 //! Host counterparts: structs in which owning buffers stand in the place of device views.
 
-use super::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, TriangleTable, World};
+use super::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, Texture, TextureMemory, TriangleTable, World};
 use crate::accel::Instances;
 use crate::data::DeviceData;
 use crate::primitive::TriangleVertices;
 use crate::ray::Traversable;
+use crate::texture::{Texel, Texture1d, Texture2d, Texture2dArray, Texture3d, TextureCube};
 use crate::view::{Element, Slice, SliceMut, SliceMut2d};
 use crate::words::FromRaw;
 use std::any::Any;
@@ -16,6 +17,8 @@ use std::vec::Vec;
 pub enum Kept {
     /// Memory that views show.
     Memory(Arc<dyn Memory>),
+    /// A texture that programs look up.
+    Texture(Arc<dyn TextureMemory>),
     /// A structure that rays are traced against.
     Traced(World),
     /// A structure whose instances or triangles are read by number.
@@ -28,6 +31,7 @@ impl Kept {
     fn device(&self) -> DeviceId {
         match self {
             Self::Memory(memory) => memory.device(),
+            Self::Texture(texture) => texture.device(),
             Self::Traced(world) | Self::Read(world) => world.device,
             Self::Callables(device, _) => *device,
         }
@@ -37,6 +41,7 @@ impl Kept {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Memory(_) => "a buffer",
+            Self::Texture(_) => "a texture",
             Self::Traced(_) | Self::Read(_) => "an acceleration structure",
             Self::Callables(..) => "a callable",
         }
@@ -106,7 +111,7 @@ unsafe impl HostData for () {
 /// What [`View::of`] returns is valid while what it handed to `keep` is kept.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a view of device memory",
-    label = "only `Slice` and its kin, `Traversable`, `Instances`, `TriangleVertices`, `Callable` and `Callables` have an owner on the host",
+    label = "only `Slice` and its kin, `Texture2d` and its kin, `Traversable`, `Instances`, `TriangleVertices`, `Callable` and `Callables` have an owner on the host",
     note = "a field is taken for a view by its type's name or by `#[view]`: give a type of your own another name, or take `#[view]` away"
 )]
 pub unsafe trait View: DeviceData {
@@ -177,3 +182,18 @@ unsafe impl View for TriangleVertices {
         unsafe { Self::from_raw((owner.gas.handle, counts)) }
     }
 }
+
+macro_rules! texture {
+    ($($name:ident),*) => {$(
+        // SAFETY: the owner is kept.
+        unsafe impl<T: Texel> View for $name<T> {
+            type Owner = Texture<Self>;
+            fn of(owner: &Texture<Self>, keep: &mut KeepAlive) -> Self {
+                keep.keep(Kept::Texture(owner.memory.clone()));
+                // SAFETY: the owner has the view's shape and channels (`Texture::from_memory`), and `keep` holds it.
+                unsafe { Self::from_raw(owner.memory.number()) }
+            }
+        }
+    )*};
+}
+texture!(Texture1d, Texture2d, Texture2dArray, Texture3d, TextureCube);

@@ -10,6 +10,7 @@ mod memory;
 mod reach;
 mod rule;
 pub mod shared;
+mod texture;
 
 pub use crate::intrinsics::TraceCall;
 pub use crate::primitive::PrimitiveType;
@@ -24,5 +25,6 @@ pub use frame::{
 };
 pub use memory::{Buffer, Buffer2d, DeviceId, InstanceTable, Memory, MemoryError, TriangleTable, World};
 pub use reach::{ByHandle, Handle, Reach};
-pub(crate) use reach::{memory, name_of};
+pub(crate) use reach::{memory, name_of, sample};
 pub use rule::{Checked, Rule};
+pub use texture::{Sampler, Texture, TextureMemory};

@@ -4,8 +4,9 @@
 //! So a program that hides a view where a later program finds it, in a variable of its thread say, has hidden a number. A
 //! launch that keeps the memory alive knows the number, and any other ends with an error that says so.
 
-use super::{Rule, end};
+use super::{Rule, Sampler, end};
 use crate::params::Field;
+use crate::texture::Lookup;
 use core::cell::Cell;
 use core::ptr::NonNull;
 use std::format;
@@ -98,15 +99,16 @@ impl<T: Copy> ByHandle<T> {
     }
 }
 
-/// The memory that a launch keeps alive.
+/// The memory and the textures that a launch keeps alive.
 #[derive(Clone, Debug, Default)]
 pub struct Reach {
     memory: ByHandle<NonNull<u8>>,
+    textures: ByHandle<NonNull<dyn Sampler>>,
     /// The launch parameters that are views, by their numbers; for messages.
     parameters: Vec<(u64, &'static str)>,
 }
 
-// SAFETY: addresses; the memory is shared by design, and read and written with atomics only (`insert`).
+// SAFETY: addresses; the memory is shared by design, and read and written with atomics only (`insert`), and samplers are `Sync`.
 unsafe impl Send for Reach {}
 // SAFETY: as above.
 unsafe impl Sync for Reach {}
@@ -124,6 +126,14 @@ impl Reach {
     /// it with atomics of the views' width ([`Element`](crate::view::Element)).
     pub unsafe fn insert(&mut self, handle: &Handle, memory: NonNull<u8>) {
         self.memory.insert(handle, memory);
+    }
+
+    /// Adds a texture.
+    ///
+    /// # Safety
+    /// The texture is there while this value or a clone of it lives.
+    pub unsafe fn insert_texture(&mut self, handle: &Handle, texture: NonNull<dyn Sampler>) {
+        self.textures.insert(handle, texture);
     }
 
     /// Notes which launch parameters are views of this memory, for messages: of `params`, the bytes of the launch's.
@@ -158,11 +168,27 @@ impl Reach {
 #[inline(always)]
 #[track_caller]
 pub(crate) fn memory(handle: u64) -> NonNull<u8> {
+    held(|reach| reach.memory.get(handle))
+}
+
+/// Looks up the texture of a view of the running program. Any other use of a view ends it.
+#[inline(always)]
+#[track_caller]
+pub(crate) fn sample(handle: u64, lookup: &Lookup) -> [f32; 4] {
+    let texture = held(|reach| reach.textures.get(handle));
+    // SAFETY: it is there while the running launch is (`insert_texture`).
+    unsafe { texture.as_ref() }.sample(lookup)
+}
+
+/// What the running launch has by this number.
+#[inline(always)]
+#[track_caller]
+fn held<T>(get: impl Fn(&Reach) -> Option<T>) -> T {
     // SAFETY: `enter` borrows the value for as long as it stands there.
     let running = RUNNING.get().map(|reach| unsafe { reach.as_ref() });
-    match running.and_then(|reach| reach.memory.get(handle)) {
-        Some(memory) => memory,
-        None => not_held(handle, running.is_some()),
+    match running.and_then(&get) {
+        Some(thing) => thing,
+        None => not_held(get, running.is_some()),
     }
 }
 
@@ -189,12 +215,12 @@ pub(super) fn reopen(reach: Option<NonNull<Reach>>) {
 #[cold]
 #[inline(never)]
 #[track_caller]
-fn not_held(handle: u64, running: bool) -> NonNull<u8> {
+fn not_held<T>(get: impl Fn(&Reach) -> Option<T>, running: bool) -> T {
     // Destructors that run while their program is unwound use views as ever.
     // SAFETY: `enter` borrows the value until the programs of the launch index are left.
     let closed = end::closed().map(|reach| unsafe { reach.as_ref() });
-    if let Some(memory) = closed.and_then(|reach| reach.memory.get(handle)) {
-        return memory;
+    if let Some(thing) = closed.and_then(get) {
+        return thing;
     }
     let what = if running || closed.is_some() {
         "a view is used that this launch's parameters and records do not hold: it was kept from another launch"

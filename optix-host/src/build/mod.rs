@@ -2,8 +2,10 @@
 
 mod accel;
 mod callable;
+mod texture;
 
 pub use accel::{GasBuilder, IasBuilder};
+pub use texture::TextureBuilder;
 
 use crate::geometry::IntoGeometry;
 use crate::scene::{Geometry, Material, SceneState};

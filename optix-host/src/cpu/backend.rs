@@ -2,14 +2,17 @@
 
 use super::executor::{self, Callables, Launch, Reached};
 use super::memory::CpuMemory;
+use super::texture::CpuTexture;
 use super::traversal::{Accel, Gas, Ias};
 use crate::Result;
 use crate::backend::{Backend, Linked, Running, next_device_id};
 use crate::plan::Plan;
 use crate::sbt::ShaderBindingTable;
 use crate::scene::{BuiltAccel, GasInput, IasInput, SceneError};
-use optix_device_rs::host::{DeviceId, Handle, Kept, Memory};
+use crate::texture::TextureInput;
+use optix_device_rs::host::{DeviceId, Handle, Kept, Memory, Sampler, TextureMemory};
 use std::any::Any;
+use std::ptr::NonNull;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -50,6 +53,10 @@ impl Backend for CpuBackend {
 
     fn allocate(&self, bytes: usize, width: usize) -> Result<Arc<dyn Memory>> {
         Ok(Arc::new(CpuMemory::zeroed(self.id, bytes, width)?))
+    }
+
+    fn create_texture(&self, input: &TextureInput<'_>) -> Result<Arc<dyn TextureMemory>> {
+        Ok(Arc::new(CpuTexture::new(self.id, input)))
     }
 
     fn build_gas(&self, input: &GasInput) -> Result<BuiltAccel> {
@@ -102,6 +109,13 @@ fn reached<'a>(kept: impl IntoIterator<Item = &'a Kept>) -> Reached<'a> {
                     // SAFETY: the memory has what its buffers have (`Buffer::from_memory`), is accessed by atomics of one width, and lives
                     // as long as `kept` is borrowed, which is until the launch is over.
                     unsafe { reached.memory.insert(memory.handle(), memory.bytes()) };
+                }
+            }
+            Kept::Texture(texture) => {
+                let texture: &dyn Any = &**texture;
+                if let Some(texture) = texture.downcast_ref::<CpuTexture>() {
+                    // SAFETY: it lives as long as `kept` is borrowed, which is until the launch is over.
+                    unsafe { reached.memory.insert_texture(texture.handle(), NonNull::from(texture as &dyn Sampler)) };
                 }
             }
             Kept::Traced(world) => {

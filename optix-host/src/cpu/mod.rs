@@ -7,6 +7,7 @@
 mod backend;
 mod executor;
 mod memory;
+mod texture;
 #[allow(missing_docs)]
 pub mod traversal;
 

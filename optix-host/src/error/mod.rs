@@ -9,6 +9,7 @@ mod launch;
 mod pipeline;
 mod reference;
 mod scene;
+mod texture;
 mod words;
 
 pub use build::BuildError;
@@ -19,6 +20,7 @@ pub use launch::LaunchError;
 pub use pipeline::{LayoutDifference, PipelineError};
 pub use reference::ReferenceError;
 pub use scene::SceneError;
+pub use texture::TextureError;
 
 use optix_device_rs::host::{MemoryError, Rule};
 use std::borrow::Cow;
@@ -34,6 +36,9 @@ pub enum Error {
     /// Geometry that no acceleration structure can be built from.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
+    /// A texture that can't be made.
+    #[error(transparent)]
+    Texture(#[from] TextureError),
     /// A scene that does not fit together.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -84,6 +89,7 @@ impl Error {
     pub fn remedy(&self) -> Option<Cow<'static, str>> {
         match self {
             Self::Geometry(error) => Some(error.remedy()),
+            Self::Texture(error) => Some(error.remedy()),
             Self::Scene(error) => Some(error.remedy()),
             Self::Pipeline { error, .. } => Some(error.remedy()),
             Self::Launch { error, .. } => Some(error.remedy()),

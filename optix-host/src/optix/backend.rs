@@ -3,7 +3,7 @@
 use super::driver::{
     self, Accel, AccelOptions, BoundValue, Context, ContextOptions, DebugLevel, DeviceBuffer, Entry, Intersection,
     LaunchArgs, LinkOptions, Module, ModuleOptions, PayloadSemantics, PayloadType, Pipeline, PipelineOptions,
-    PrimitiveKinds, ProgramGroup, Programs, SbtSection, SbtSections, ShaderBindingTable as DeviceTable,
+    PrimitiveKinds, ProgramGroup, Programs, SbtSection, SbtSections, ShaderBindingTable as DeviceTable, Texture,
     TraversableGraph, stack::CallDepths,
 };
 use super::{OptixOptions, feedback};
@@ -12,8 +12,9 @@ use crate::error::PipelineError;
 use crate::plan::{Graph, Plan};
 use crate::sbt::{HEADER_SIZE, HitProgram, Section, ShaderBindingTable};
 use crate::scene::{BuiltAccel, GasInput, IasInput, SceneError};
+use crate::texture::TextureInput;
 use crate::{Error, Result};
-use optix_device_rs::host::{self as device, DeviceId, Kept, Memory, MemoryError};
+use optix_device_rs::host::{self as device, DeviceId, Kept, Memory, MemoryError, TextureMemory};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -55,6 +56,10 @@ impl Backend for OptixBackend {
         Ok(Arc::new(OptixMemory { device: self.id, buffer: DeviceBuffer::zeroed(&self.context, bytes)? }))
     }
 
+    fn create_texture(&self, input: &TextureInput<'_>) -> Result<Arc<dyn TextureMemory>> {
+        Ok(Arc::new(OptixTexture { device: self.id, texture: Texture::new(&self.context, input)? }))
+    }
+
     /// On the device, programs call a record by its index, so the number is the index.
     fn number_callables(&self, index: u32, _: u32) -> Result<u32> {
         Ok(index)
@@ -86,6 +91,22 @@ impl Backend for OptixBackend {
 pub(crate) struct OptixMemory {
     pub device: DeviceId,
     pub buffer: DeviceBuffer,
+}
+
+/// A texture on the GPU.
+struct OptixTexture {
+    device: DeviceId,
+    texture: Texture,
+}
+
+// SAFETY: the object is destroyed after the launches that were begun before.
+unsafe impl TextureMemory for OptixTexture {
+    fn device(&self) -> DeviceId {
+        self.device
+    }
+    fn number(&self) -> u64 {
+        self.texture.object()
+    }
 }
 
 fn memory_error(error: driver::Error) -> MemoryError {

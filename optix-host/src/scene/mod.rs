@@ -67,7 +67,7 @@ fn scene_of(kept: &Kept) -> Option<u64> {
     match kept {
         Kept::Traced(world) => Some(world.scene::<AccelShared>()?.scene),
         Kept::Callables(_, shared) => Some(shared.downcast_ref::<CallableShared>()?.scene),
-        Kept::Memory(_) | Kept::Read(_) => None,
+        Kept::Memory(_) | Kept::Texture(_) | Kept::Read(_) => None,
     }
 }
 

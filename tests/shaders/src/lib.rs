@@ -6,6 +6,7 @@ pub mod deep;
 pub mod queries;
 pub mod reports;
 pub mod spawn;
+pub mod textures;
 
 use optix_device_rs::prelude::*;
 use path_tracer_shaders::ball::{self, Ball, BallHit};

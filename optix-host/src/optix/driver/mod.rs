@@ -5,6 +5,7 @@
 //!
 //! - [`Context`]: a GPU, one stream, the driver's log. Work runs in the order it was asked for.
 //! - [`DeviceBuffer`]: device memory. Copies come after everything asked for before.
+//! - [`Texture`]: texels, and the object that programs look them up by.
 //! - [`Accel`], [`Transform`]: traversables, which keep their memory and their children alive.
 //! - [`Module`] → [`ProgramGroup`] → [`Pipeline`]: programs, each keeping what it was made from.
 //! - [`ShaderBindingTable`] and [`Pipeline::launch`]: a [`Launch`] holds what it uses until it is done.
@@ -34,6 +35,7 @@ pub(crate) mod remedy;
 mod sbt;
 pub mod stack;
 pub mod sys;
+mod texture;
 mod transform;
 
 use std::any::Any;
@@ -54,6 +56,7 @@ pub use payload::{PayloadSemantics, PayloadType};
 pub use pipeline::{LinkOptions, Pipeline};
 pub use program::{Entry, Intersection, ProgramGroup, Programs};
 pub use sbt::{SbtSection, SbtSections, ShaderBindingTable};
+pub use texture::Texture;
 pub use transform::Transform;
 
 /// Things to keep alive: buffers, acceleration structures, program groups.

@@ -9,7 +9,7 @@ use std::path::Path;
 const LAYERS: &[&[&str]] = &[
     &["limits", "affine"],
     &["error"],
-    &["geometry"],
+    &["geometry", "texture"],
     &["features"],
     &["scene"],
     &["plan"],
