@@ -115,7 +115,8 @@ pub fn derive_payload(input: TokenStream) -> TokenStream {
 /// derive includes [`DeviceData`](macro@DeviceData).
 ///
 /// # Views and twins
-/// A field is a view if its type's name is `Slice`, `SliceMut`, `SliceMut2d`, `Traversable`, `Instances`,
+/// A field is a view if its type's name is `Slice`, `SliceMut`, `SliceMut2d`, `Texture1d`, `Texture2d`, `Texture2dArray`, `Texture3d`,
+/// `TextureCube`, `Traversable`, `Instances`,
 /// `TriangleVertices`, `Callable` or `Callables`, or an array of these. A view under another name, and a struct with views that derives `DeviceData`, needs `#[view]` on the
 /// field; without it the field does not compile. A struct with views has a host counterpart, `LambertHost`, with the same fields and visibilities; one
 /// without is its own. In a device build the host counterpart's name stands for a type without values, so that `pub use

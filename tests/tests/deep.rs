@@ -3,7 +3,7 @@
 //! Triangles over many scales make structures of many levels. On a GPU without ray-tracing cores the driver's traversal has a
 //! stack beside that of the programs, which is too small for them: without `stack::traversal_reserve` this test fails there.
 
-use glam::{Affine3A, Quat, Vec3};
+use glam::{Affine3A, Mat4, Quat, UVec3, Vec3};
 use optix_host::{Device, Pipeline, Result, Scene, TriangleMesh};
 use optix_tests::devices;
 use optix_tests::probe::{PTX, ProbeRay, ray};
@@ -63,13 +63,18 @@ fn changed(
     }
     let world = accel.world()?;
     let pipeline = Pipeline::for_scene(&scene).ptx(PTX).build()?;
-    let before: Vec<Kept> =
-        (0..rays.len() as u32).map(|i| Kept { words: core::array::from_fn(|k| i * 15 + k as u32), met: 0 }).collect();
+    let before: Vec<Kept> = (0..rays.len() as u32)
+        .map(|i| Kept {
+            numbers: Mat4::from_cols_array(&core::array::from_fn(|k| (i * 16 + k as u32) as f32)),
+            words: UVec3::new(i, !i, i << 7),
+            met: 0,
+        })
+        .collect();
     let kept = device.buffer(&before)?;
     let frame = DeepFrameHost { rays: device.buffer(rays)?, kept: kept.clone(), world };
     pipeline.launch(&frame, [rays.len() as u32, 1, 1])?.wait()?;
     let after = kept.read()?;
-    let changed = before.iter().zip(&after).filter(|(before, after)| before.words != after.words).count();
+    let changed = before.iter().zip(&after).filter(|(before, after)| **before != Kept { met: 0, ..**after }).count();
     Ok((changed, after.iter().map(|kept| u64::from(kept.met)).sum()))
 }
 

@@ -7,8 +7,10 @@ use optix_device_rs::prelude::*;
 #[derive(Clone, Copy, Debug, PartialEq, Element)]
 #[repr(C)]
 pub struct Kept {
+    /// Any numbers.
+    pub numbers: Mat4,
     /// Any words.
-    pub words: [u32; 15],
+    pub words: UVec3,
     /// How often an any-hit program ran.
     pub met: u32,
 }
