@@ -3,12 +3,12 @@
 //! Triangles over many scales make structures of many levels. On a GPU without ray-tracing cores the driver's traversal has a
 //! stack beside that of the programs, which is too small for them: without `stack::traversal_reserve` this test fails there.
 
-use glam::{Affine3A, Mat4, Quat, UVec3, Vec3};
+use glam::{Affine3A, Quat, Vec3, Vec4};
 use optix_host::{Device, Pipeline, Result, Scene, TriangleMesh};
 use optix_tests::devices;
 use optix_tests::probe::{PTX, ProbeRay, ray};
 use optix_tests::spawn::{Dice, Triangle};
-use probe_shaders::deep::{Deep, DeepFrameHost, Kept, Mist};
+use probe_shaders::deep::{Deep, DeepFrameHost, KEPT, Mist};
 
 /// Triangles of sizes that are spread evenly over the exponents of two, as large as `wide` times their distance from the origin.
 fn triangles(shape: Shape, exponents: [f32; 2], wide: f32, count: usize, dice: &mut Dice) -> Vec<Triangle> {
@@ -46,7 +46,7 @@ fn instances(exponents: [f32; 2], count: usize, dice: &mut Dice) -> Vec<Affine3A
         .collect()
 }
 
-/// How many of the rays' words changed, and how many triangles the rays passed.
+/// After how many of the rays something had changed, and how many triangles the rays passed.
 fn changed(
     device: &Device,
     triangles: &[Triangle],
@@ -63,19 +63,16 @@ fn changed(
     }
     let world = accel.world()?;
     let pipeline = Pipeline::for_scene(&scene).ptx(PTX).build()?;
-    let before: Vec<Kept> = (0..rays.len() as u32)
-        .map(|i| Kept {
-            numbers: Mat4::from_cols_array(&core::array::from_fn(|k| (i * 16 + k as u32) as f32)),
-            words: UVec3::new(i, !i, i << 7),
-            met: 0,
-        })
+    let before: Vec<Vec4> = (0..rays.len() as u32 * KEPT)
+        .map(|i| Vec4::from_array(core::array::from_fn(|k| (i * 4 + k as u32) as f32)))
         .collect();
-    let kept = device.buffer(&before)?;
-    let frame = DeepFrameHost { rays: device.buffer(rays)?, kept: kept.clone(), world };
+    let (kept, met) = (device.buffer(&before)?, device.zeroed(rays.len())?);
+    let frame = DeepFrameHost { rays: device.buffer(rays)?, kept: kept.clone(), met: met.clone(), world };
     pipeline.launch(&frame, [rays.len() as u32, 1, 1])?.wait()?;
     let after = kept.read()?;
-    let changed = before.iter().zip(&after).filter(|(before, after)| **before != Kept { met: 0, ..**after }).count();
-    Ok((changed, after.iter().map(|kept| u64::from(kept.met)).sum()))
+    let each = before.chunks(KEPT as usize).zip(after.chunks(KEPT as usize));
+    let changed = each.filter(|(before, after)| before != after).count();
+    Ok((changed, met.read()?.iter().copied().map(u64::from).sum()))
 }
 
 #[test]

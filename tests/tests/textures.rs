@@ -164,8 +164,8 @@ fn differences(cpu: &[Vec4], gpu: &[Vec4]) -> Differences {
     })
 }
 
-/// The most that a lookup may differ by, texels being from -1 to 1. Weights are the same on both machines but for those of boxes and
-/// between levels, which may be one or two 256ths off; sRGB has 8 bits on a GPU; a level by a gradient is approximate.
+/// The most that a lookup may differ by, texels being from -1 to 1. Weights are the same on both machines but for those of boxes,
+/// cubes and between levels, which may be one or two 256ths off; sRGB has 8 bits on a GPU; a level by a gradient is approximate.
 fn bound(format: Format, mode: Mode, texture: usize, how: u32) -> f32 {
     let range = if matches!(format, Format::Unorm8(_) | Format::Unorm16(_)) { 1.0 } else { 2.0 };
     let linear = mode.filter == FilterMode::Linear;
@@ -184,7 +184,12 @@ fn bound(format: Format, mode: Mode, texture: usize, how: u32) -> f32 {
         Format::Snorm8(_) if linear => rounding,
         _ => rounding.min(6.2e-5),
     };
-    let weights = if linear && texture == 4 { 2.0 / 256.0 * range } else { 0.0 };
+    let weights = match texture {
+        4 if linear => 2.0 / 256.0 * range,
+        // Where a direction meets a face is rounded: a place may be a 256th off.
+        6 if linear => 1.0 / 256.0 * range,
+        _ => 0.0,
+    };
     let levels = match (how, mode.mip_filter) {
         (0, _) => 0.0,
         (1, FilterMode::Linear) => {
@@ -195,7 +200,8 @@ fn bound(format: Format, mode: Mode, texture: usize, how: u32) -> f32 {
             }
         }
         (1, FilterMode::Point) => 0.0,
-        (_, FilterMode::Linear) => 0.08 * range,
+        // Half a level: where the two steps are askew a GPU looks at the ellipse that they span.
+        (_, FilterMode::Linear) => 0.55 * range,
         // Near the middle between two levels either is right.
         (_, FilterMode::Point) => range,
     };

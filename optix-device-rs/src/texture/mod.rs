@@ -36,7 +36,6 @@ mod ptx;
 
 use crate::data::DeviceData;
 use crate::layout::Layout;
-use crate::sealed::Sealed;
 use crate::words::{FromRaw, words_of_raw};
 use core::marker::PhantomData;
 use glam::{Vec2, Vec3, Vec4};
@@ -79,6 +78,12 @@ impl Texel for Vec4 {
         Vec4::from_array(channels)
     }
 }
+
+/// Texels and views are these.
+mod sealed {
+    pub trait Sealed {}
+}
+use sealed::Sealed;
 
 /// How a texture's texels are laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -49,12 +49,12 @@ DEVICE bool is_leaf() {
     return across < width && !hole;
 }
 
-ENTRY(anyhit, Foliage_cut_out_Blade_Seen) {
+ENTRY(anyhit, Foliage_cut_out_Blade_Seen_Triangles) {
     optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
     if (!is_leaf()) optixIgnoreIntersection();
 }
 
-ENTRY(anyhit, Foliage_shade_Blade_Sun) {
+ENTRY(anyhit, Foliage_shade_Blade_Sun_Triangles) {
     optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_1);
     float light = real(optixGetPayload_0());
     if (is_leaf()) light = light * record<Blade>().transmittance;
@@ -82,12 +82,12 @@ DEVICE void surface(float3 colour) {
     set_seen(point.position, normal, point.error, colour);
 }
 
-ENTRY(closesthit, Foliage_blade_Blade_Seen) {
+ENTRY(closesthit, Foliage_blade_Blade_Seen_Triangles) {
     optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
     surface(record<Blade>().albedo);
 }
 
-ENTRY(closesthit, Foliage_ground_Ground_Seen) {
+ENTRY(closesthit, Foliage_ground_Ground_Seen_Triangles) {
     optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
     surface(record<Ground>().albedo);
 }

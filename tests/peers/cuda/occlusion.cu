@@ -42,7 +42,7 @@ DEVICE void set_surface(float3 position, float3 normal, float error) {
     optixSetPayload_6(bits(error));
 }
 
-ENTRY(closesthit, Occlusion_clay_Clay_Surface) {
+ENTRY(closesthit, Occlusion_clay_Clay_Surface_Triangles) {
     optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
     SurfacePoint point = SurfacePoint::of_triangle_hit();
     float3 normal = dot(point.normal, optixGetWorldRayDirection()) > 0.0f ? -point.normal : point.normal;

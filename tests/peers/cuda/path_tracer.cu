@@ -139,13 +139,13 @@ DEVICE void diffuse(const SurfacePoint& point, float3 shading, float3 albedo) {
     answer(light * albedo, weight, origin, direction, false, shadow_rays);
 }
 
-ENTRY(closesthit, PathTracer_surface_lambert_Lambert_Radiance) {
+ENTRY(closesthit, PathTracer_surface_lambert_Lambert_Radiance_Triangles) {
     optixSetPayloadTypes(RADIANCE);
     SurfacePoint point = SurfacePoint::of_triangle_hit();
     diffuse(point, point.normal, record<Lambert>().albedo);
 }
 
-ENTRY(closesthit, PathTracer_surface_smooth_Smooth_Radiance) {
+ENTRY(closesthit, PathTracer_surface_smooth_Smooth_Radiance_Triangles) {
     optixSetPayloadTypes(RADIANCE);
     const Smooth& smooth = record<Smooth>();
     uint3 i = smooth.indices.data[optixGetPrimitiveIndex()];
@@ -159,7 +159,7 @@ ENTRY(closesthit, PathTracer_surface_smooth_Smooth_Radiance) {
     diffuse(point, shading, smooth.albedo);
 }
 
-ENTRY(closesthit, PathTracer_light_emitter_Emitter_Radiance) {
+ENTRY(closesthit, PathTracer_light_emitter_Emitter_Radiance_Triangles) {
     optixSetPayloadTypes(RADIANCE);
     bool counts = optixGetPayload_4() && optixIsTriangleFrontFaceHit();
     answer(counts ? record<Emitter>().emission : splat(0.0f), splat(0.0f), splat(0.0f), splat(0.0f), false, 0);
@@ -178,17 +178,17 @@ DEVICE bool is_leaf(float2 at) {
     return across < width || (across < 0.012f && at.x < 0.2f);
 }
 
-ENTRY(anyhit, PathTracer_leaf_cut_out_Leaf_Radiance) {
+ENTRY(anyhit, PathTracer_leaf_cut_out_Leaf_Radiance_Triangles) {
     optixSetPayloadTypes(RADIANCE);
     if (!is_leaf(place())) optixIgnoreIntersection();
 }
 
-ENTRY(anyhit, PathTracer_leaf_cut_out_Leaf_Shadow) {
+ENTRY(anyhit, PathTracer_leaf_cut_out_Leaf_Shadow_Triangles) {
     optixSetPayloadTypes(SHADOW);
     if (!is_leaf(place())) optixIgnoreIntersection();
 }
 
-ENTRY(closesthit, PathTracer_leaf_leaf_Leaf_Radiance) {
+ENTRY(closesthit, PathTracer_leaf_leaf_Leaf_Radiance_Triangles) {
     optixSetPayloadTypes(RADIANCE);
     float2 at = place();
     float across = fabsf(at.y - 0.5f);

@@ -37,7 +37,7 @@ ENTRY(raygen, Wide_camera) {
     set(params.normal, px, extend(normal, 0.0f));
 }
 
-ENTRY(closesthit, Wide_paint_Paint_Path) {
+ENTRY(closesthit, Wide_paint_Paint_Path_Triangles) {
     optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
     const Paint& paint = record<Paint>();
     SurfacePoint point = SurfacePoint::of_triangle_hit();

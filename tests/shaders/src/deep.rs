@@ -3,25 +3,18 @@
 use crate::ProbeRay;
 use optix_device_rs::prelude::*;
 
-/// What the program reads before the trace and writes back after it.
-#[derive(Clone, Copy, Debug, PartialEq, Element)]
-#[repr(C)]
-pub struct Kept {
-    /// Any numbers.
-    pub numbers: Mat4,
-    /// Any words.
-    pub words: UVec3,
-    /// How often an any-hit program ran.
-    pub met: u32,
-}
+/// How many vectors a program keeps.
+pub const KEPT: u32 = 4;
 
 /// The launch parameters.
 #[launch_params]
 pub struct DeepFrame {
     /// One for each launch index.
     pub rays: Slice<ProbeRay>,
-    /// Likewise.
-    pub kept: SliceMut<Kept>,
+    /// What the program reads before the trace and writes back after it: [`KEPT`] vectors of any numbers for each launch index.
+    pub kept: SliceMut<Vec4>,
+    /// How often an any-hit program ran, for each launch index.
+    pub met: SliceMut<u32>,
     /// The scene.
     pub world: Traversable,
 }
@@ -39,17 +32,23 @@ pub struct Passing {
 #[repr(C)]
 pub struct Mist {}
 
-/// Keeps words across a trace: more than there are registers for, with what else lives there.
+/// Keeps numbers across a trace.
 #[raygen]
 fn keep(rg: &RayGen<Deep>) {
     let frame = rg.params();
     let index = rg.launch_index().x;
     let ray = frame.rays().get(index);
-    let before = frame.kept().get(index);
+    let kept = |i: u32| frame.kept().get(KEPT * index + i);
+    let (a, b, c, d) = (kept(0), kept(1), kept(2), kept(3));
     let (origin, direction) = (Vec3::from_array(ray.origin), Vec3::from_array(ray.direction));
     let ray = Ray::new(origin, direction).range(ray.tmin, ray.tmax);
     let passed = rg.trace::<Passing>(frame.world(), ray, PassingFromCaller { met: 0 });
-    frame.kept().set(index, Kept { met: passed.met, ..before });
+    let put = |i: u32, vector: Vec4| frame.kept().set(KEPT * index + i, vector);
+    put(0, a);
+    put(1, b);
+    put(2, c);
+    put(3, d);
+    frame.met().set(index, passed.met);
 }
 
 #[anyhit]

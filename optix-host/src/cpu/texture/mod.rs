@@ -53,8 +53,15 @@ impl CpuTexture {
                     TextureShape::D2 | TextureShape::D2Array | TextureShape::Cube => 2,
                     TextureShape::D3 => 3,
                 };
-                let length =
-                    |step: [f32; 3]| (0..dimensions).map(|axis| (step[axis] * size[axis]).powi(2)).sum::<f32>().sqrt();
+                // Of a plane the length is approximate, as on a GPU: 5 % too short to 6 % too long.
+                let length = |step: [f32; 3]| {
+                    let [x, y, z] = core::array::from_fn(|axis| (step[axis] * size[axis]).abs());
+                    match dimensions {
+                        1 => x,
+                        2 => x.max(y) + x.min(y) * (11.0 / 32.0),
+                        _ => (x * x + y * y + z * z).sqrt(),
+                    }
+                };
                 gradient.map(length).into_iter().fold(0.0, f32::max).log2()
             }
         };
