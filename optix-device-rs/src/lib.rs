@@ -4,6 +4,9 @@
 //! OptiX intrinsics, and for the host, where they read the frame that the CPU executor made for the program call.
 //! Nothing a program writes depends on which of the two it is.
 //!
+//! "Guide" is the [NVIDIA OptiX 9.0 Programming Guide](https://raytracing-docs.nvidia.com/optix9/guide/index.html), with the
+//! number of the chapter or section.
+//!
 //! A device program is a typed function. What it may read are its arguments, what it must write is its return value:
 //!
 //! ```

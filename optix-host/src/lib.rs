@@ -4,6 +4,9 @@
 //! Data flows one way: a pipeline type (declared in a shader crate by `pipeline!`) and a [`Scene`] give a [`Pipeline`]
 //! specialised to both, which launches. Nothing is written twice: record layouts, SBT offsets, payload types, stack sizes
 //! and flags follow from the types and the scene.
+//!
+//! "Guide" is the [NVIDIA OptiX 9.0 Programming Guide](https://raytracing-docs.nvidia.com/optix9/guide/index.html), with the
+//! number of the chapter or section.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![warn(missing_docs)]
 

@@ -88,7 +88,7 @@ impl Backend {
     /// # Ok::<(), optix_toolchain::Error>(())
     /// ```
     pub fn find() -> Result<Self, Error> {
-        let library = library().ok_or_else(|| Error::NoRustCuda(Unusable::NotThere))?;
+        let library = library().ok_or(Error::NoRustCuda(Unusable::NotThere))?;
         Self::of(library)
     }
 

@@ -1,6 +1,6 @@
 //! Textures are made.
 
-use crate::texture::{AddressMode, FilterMode, Sampling, TexelFormat, TextureInput, TextureShape};
+use crate::texture::{AddressMode, FilterMode, Sampling, TexelFormat, TextureInput};
 use crate::{Device, Result};
 use optix_device_rs::host::Texture;
 use optix_device_rs::texture::{Texture1d, Texture2d, Texture2dArray, Texture3d, TextureCube, TextureView};
@@ -70,7 +70,7 @@ impl Device {
         width: u32,
         texels: &'a [F],
     ) -> TextureBuilder<'a, TextureCube<F::Texel>, F> {
-        self.texture([width, width, 6], texels).address(AddressMode::Clamp)
+        self.texture([width, width, 6], texels)
     }
 
     fn texture<'a, V, F>(&'a self, size: [u32; 3], texels: &'a [F]) -> TextureBuilder<'a, V, F> {
@@ -92,7 +92,7 @@ impl<'a, V: TextureView, F: TexelFormat<Texel = V::Texel>> TextureBuilder<'a, V,
 
     /// The same, for each dimension.
     pub fn address_each(mut self, modes: [AddressMode; 3]) -> Self {
-        self.sampling.address = if V::SHAPE == TextureShape::Cube { [AddressMode::Clamp; 3] } else { modes };
+        self.sampling.address = modes;
         self
     }
 

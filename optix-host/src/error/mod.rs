@@ -79,7 +79,7 @@ pub enum Error {
     /// An error of a copy to or from device memory.
     #[error("device memory: {0}")]
     Memory(#[from] MemoryError),
-    /// The CPU executor could not build an acceleration structure.
+    /// An acceleration structure that can't be built.
     #[error("acceleration structure: {0}")]
     Build(#[from] BuildError),
 }

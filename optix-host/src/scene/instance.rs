@@ -1,4 +1,5 @@
-//! Instances as machines take them, and the only checks of them (guide 5.4).
+//! Instances as machines take them, and the only checks of each one alone (guide 5.4). Sums over a way down a graph are the
+//! machines' to check.
 
 use super::InstanceFlags;
 use crate::affine::Affine;

@@ -104,6 +104,9 @@ impl<'a> TextureInput<'a> {
                 return Err(TextureError::Texels { level, size, given: texels.len(), needed });
             }
         }
+        // The sides of a cube have no outside.
+        let clamp = [AddressMode::Clamp; 3];
+        let sampling = if shape == TextureShape::Cube { Sampling { address: clamp, ..sampling } } else { sampling };
         if sampling.srgb && F::FORMAT != Format::Unorm8(4) {
             return Err(TextureError::SrgbFormat);
         }

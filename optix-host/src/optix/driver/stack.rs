@@ -1,4 +1,5 @@
-//! Stack sizes (guide 6.8): pure functions that compute what a pipeline is given from what its programs need.
+//! Stack sizes: pure functions that compute what a pipeline is given from what its programs need (guide 6.8), and what traversal
+//! needs besides (measured).
 //!
 //! All sizes are bytes. A sum beyond `u32` saturates; the driver refuses such a size.
 
