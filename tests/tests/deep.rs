@@ -3,7 +3,7 @@
 //! Triangles over many scales make structures of many levels. On a GPU without ray-tracing cores the driver's traversal has a
 //! stack beside that of the programs, which is too small for them: without `stack::traversal_reserve` this test fails there.
 
-use glam::{Affine3A, Quat, Vec3, Vec4};
+use glam::{Affine3A, Quat, Vec3};
 use optix_host::{Device, Pipeline, Result, Scene, TriangleMesh};
 use optix_tests::devices;
 use optix_tests::probe::{PTX, ProbeRay, ray};
@@ -63,9 +63,7 @@ fn changed(
     }
     let world = accel.world()?;
     let pipeline = Pipeline::for_scene(&scene).ptx(PTX).build()?;
-    let before: Vec<Vec4> = (0..rays.len() as u32 * KEPT)
-        .map(|i| Vec4::from_array(core::array::from_fn(|k| (i * 4 + k as u32) as f32)))
-        .collect();
+    let before: Vec<f32> = (0..rays.len() as u32 * KEPT).map(|i| i as f32).collect();
     let (kept, met) = (device.buffer(&before)?, device.zeroed(rays.len())?);
     let frame = DeepFrameHost { rays: device.buffer(rays)?, kept: kept.clone(), met: met.clone(), world };
     pipeline.launch(&frame, [rays.len() as u32, 1, 1])?.wait()?;

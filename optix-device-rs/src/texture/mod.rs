@@ -6,7 +6,8 @@
 //! ```
 //! use optix_device_rs::prelude::*;
 //!
-//! #[derive(SbtRecord)]
+//! #[derive(Clone, Copy, SbtRecord)]
+//! #[repr(C)]
 //! pub struct Painted {
 //!     pub colour: Texture2d<Vec4>,
 //! }

@@ -3,16 +3,16 @@
 use crate::ProbeRay;
 use optix_device_rs::prelude::*;
 
-/// How many vectors a program keeps.
-pub const KEPT: u32 = 4;
+/// How many numbers a program keeps.
+pub const KEPT: u32 = 8;
 
 /// The launch parameters.
 #[launch_params]
 pub struct DeepFrame {
     /// One for each launch index.
     pub rays: Slice<ProbeRay>,
-    /// What the program reads before the trace and writes back after it: [`KEPT`] vectors of any numbers for each launch index.
-    pub kept: SliceMut<Vec4>,
+    /// What the program reads before the trace and writes back after it: [`KEPT`] numbers for each launch index.
+    pub kept: SliceMut<f32>,
     /// How often an any-hit program ran, for each launch index.
     pub met: SliceMut<u32>,
     /// The scene.
@@ -39,15 +39,19 @@ fn keep(rg: &RayGen<Deep>) {
     let index = rg.launch_index().x;
     let ray = frame.rays().get(index);
     let kept = |i: u32| frame.kept().get(KEPT * index + i);
-    let (a, b, c, d) = (kept(0), kept(1), kept(2), kept(3));
+    let before = (kept(0), kept(1), kept(2), kept(3), kept(4), kept(5), kept(6), kept(7));
     let (origin, direction) = (Vec3::from_array(ray.origin), Vec3::from_array(ray.direction));
     let ray = Ray::new(origin, direction).range(ray.tmin, ray.tmax);
     let passed = rg.trace::<Passing>(frame.world(), ray, PassingFromCaller { met: 0 });
-    let put = |i: u32, vector: Vec4| frame.kept().set(KEPT * index + i, vector);
-    put(0, a);
-    put(1, b);
-    put(2, c);
-    put(3, d);
+    let put = |i: u32, number: f32| frame.kept().set(KEPT * index + i, number);
+    put(0, before.0);
+    put(1, before.1);
+    put(2, before.2);
+    put(3, before.3);
+    put(4, before.4);
+    put(5, before.5);
+    put(6, before.6);
+    put(7, before.7);
     frame.met().set(index, passed.met);
 }
 
